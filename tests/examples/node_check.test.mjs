@@ -79,6 +79,12 @@ test('a request that the API does not know is refused by its path', () =>
     await assert.rejects(collect(client.generateTransition()), { message: /^request: undefined is no GenerateTransitionRequest/ });
   }));
 
+test('one request is no list', async () => {
+  const client = new ChoreoClient(process.env.CHOREO_SERVER);
+  await assert.rejects(client.streamDance({ config: {} }).next(), { message: 'requests: is one object: put it in a list, [{ config }, ...]' });
+  client.close();
+});
+
 test('with reject_invalid_keys a request that is wrong beside its key ends the dance, too', () =>
   withClient(async (client) => {
     const lenient = { config: { frames: 30, reject_invalid_keys: true } };

@@ -46,6 +46,8 @@ test('a pose of the library is danced', async () => {
   for await (const answer of another.streamDance([{ config: { frames: 60 } }, { keyframe: { id: 'a', time: 1, pose: kick } }])) assert.ok(answer);
   another.close();
   assert.throws(() => libraryPose('kik', skeleton), { message: "libraryPose.pose: 'kik' is no pose of the library; did you mean kick?" });
+  for (const read of [() => libraryPose('kick'), () => readKeys({ keyframes: [] })]) assert.throws(read, { message: /^skeleton: undefined is none, as in / });
+  assert.throws(() => readKeys('keys/no.json', skeleton), { message: "file: 'keys/no.json' is a path: read it, and give its text" });
 });
 
 test('a jump without a place, which stands, is warned of once a key', (t) => {

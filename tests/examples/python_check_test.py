@@ -77,6 +77,8 @@ class CheckTest(unittest.TestCase):
             self.assertEqual(str(error), f"{'' if named.startswith('requests') else f'requests[{at}].'}{named}: {said}")
             self.assertEqual(error.violations[0].request, at)
         self.assert_refused("requests: None is no iterable", lambda: list(self.client.stream_dance(None)))
+        for one in ({"config": {}}, choreography.StreamDanceRequest()):
+            self.assert_refused("requests: is one request: put it in a list", lambda one=one: list(self.client.stream_dance(one)))
         self.assert_refused("rank_by: 'LIKELIHOOD' is no RankBy; did you mean", self.client.generate_transition, {"rank_by": "LIKELIHOOD"})
         self.assert_refused("request: None is no GenerateTransitionRequest", self.client.generate_transition, None)
 

@@ -7,7 +7,7 @@ import pathlib
 import unittest
 import warnings
 
-from choreo_client import ChoreoError, Client, KeyRejectedWarning, choreography, library_pose, poses, read_keys
+from choreo_client import ChoreoError, Client, KeyRejectedWarning, choreography, library_pose, pose, poses, read_keys
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 KNOWN = json.loads((ROOT / "tests/examples/read_keys.json").read_text())
@@ -56,6 +56,14 @@ class KeysTest(unittest.TestCase):
         keys = [{"time": 1, "pose": "stand", "hold": 2}, {"time": 2.5, "pose": "dab"}]
         times = [request["keyframe"]["time"] for request in read_keys({"keyframes": keys}, self.skeleton)]
         self.assertEqual([round(time, 6) for time in times], [1, 1.2, 1.4, 1.6, 1.8, 2, 2.5])
+
+    def test_what_is_no_file_and_no_skeleton_is_named(self):
+        for path in ("keys/no.json", pathlib.Path("no.json")):
+            with self.assertRaisesRegex(ChoreoError, "^file: .*no.json.* is a path: read it, and give its text"):
+                read_keys(path, self.skeleton)
+        for read in (lambda: library_pose("kick", None), lambda: read_keys({"keyframes": []}, None), lambda: pose(None)):
+            with self.assertRaisesRegex(ChoreoError, "^skeleton: None is none, as in "):
+                read()
 
     def test_a_pose_of_the_library_is_danced(self):
         for one in poses():

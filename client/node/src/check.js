@@ -102,7 +102,7 @@ function bytes(value, path, encoding) {
   if (types.isUint8Array(value)) return value;
   if (types.isAnyArrayBuffer(value)) return new Uint8Array(value);
   if (!ArrayBuffer.isView(value)) {
-    const text = typeof value === 'string' ? '; of base64 Buffer.from makes them' : '';
+    const text = typeof value === 'string' ? '; of a file readFile() gives them, of base64 Buffer.from()' : '';
     throw invalid(path, `${quoted(value)} is no bytes: a Uint8Array, an ArrayBuffer or the encoding's samples${text}`);
   }
   const kind = value.constructor.name;

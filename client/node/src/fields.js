@@ -4,6 +4,11 @@ import { quoted } from './words.js';
 
 export const isObject = (value) => typeof value === 'object' && value !== null && !Array.isArray(value);
 
+/** Throws for what is no body of a model. */
+export function requireSkeleton(skeleton) {
+  if (!skeleton?.joint_names) throw invalid('skeleton', `${quoted(skeleton)} is none, as in (await client.info()).models[0].skeleton`);
+}
+
 export function number(value, field) {
   if (Number.isFinite(value)) return value;
   throw invalid(field, `${quoted(value)} is not a number${/c$/.test(value) ? "; counts need a song's beats: say seconds" : ''}`);

@@ -18,6 +18,8 @@ export class Journal {
   /** `requests`: an iterable, which may be asynchronous. It is asked for the next one when the server takes it. */
   constructor(requests) {
     const begin = requests?.[Symbol.asyncIterator] ?? requests?.[Symbol.iterator];
+    const isOne = typeof requests === 'object' && requests !== null && !begin;
+    if (isOne) throw invalid('requests', 'is one object: put it in a list, [{ config }, ...]');
     if (typeof requests !== 'object' || !begin) throw invalid('requests', `${typeof requests} is no iterable of messages`);
     this.#source = begin.call(requests);
   }

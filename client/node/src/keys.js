@@ -1,6 +1,6 @@
 // Key files, as `choreo dance --keyframes` takes them: docs/poses.md.
 import { invalid } from './error.js';
-import { isObject, number, requireWhere, vector } from './fields.js';
+import { isObject, number, requireSkeleton, requireWhere, vector } from './fields.js';
 import { find } from './poses.js';
 import { radians, times, turned } from './turns.js';
 import { hint, quoted } from './words.js';
@@ -23,6 +23,7 @@ const mostTurn = { collar: 60, wrist: 90, ankle: 80, foot: 60, toe: 60, spine: 6
 
 /** The keys of a key file as requests of streamDance; index.d.ts says more. */
 export function readKeys(file, skeleton) {
+  requireSkeleton(skeleton);
   const keys = (typeof file === 'string' || ArrayBuffer.isView(file) ? parsed(file) : file)?.keyframes;
   if (!Array.isArray(keys)) throw invalid('file', 'has no list "keyframes"');
   if (keys.length === 0) throw invalid('keyframes', 'is empty');
@@ -42,12 +43,14 @@ function parsed(file) {
   try {
     return JSON.parse(typeof file === 'string' ? file : new TextDecoder().decode(file));
   } catch (error) {
-    throw invalid('file', `is not JSON: ${error.message}`);
+    const isPath = typeof file === 'string' && /^[^{}\n]*[./\\][^{}\n]+$/.test(file);
+    throw invalid('file', isPath ? `${quoted(file)} is a path: read it, and give its text` : `is not JSON: ${error.message}`);
   }
 }
 
 /** A pose of the library as a Pose; index.d.ts says more. */
 export function libraryPose(name, skeleton, where = {}) {
+  requireSkeleton(skeleton);
   requireWhere(where, '{ place: [x, z], facing: degrees }', ['place', 'facing']);
   const { place, facing } = where;
   const value = { pose: name, ...(place !== undefined && { place }), ...(facing !== undefined && { facing }) };

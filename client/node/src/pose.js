@@ -1,11 +1,11 @@
 import { invalid } from './error.js';
-import { requireWhere, vector } from './fields.js';
+import { requireSkeleton, requireWhere, vector } from './fields.js';
 import { hint, quoted } from './words.js';
 
 /** The body of `skeleton` at rest, but for `rotations`; index.d.ts says more. */
 export function pose(skeleton, rotations = {}, where = {}) {
-  const names = skeleton?.joint_names;
-  if (!names) throw invalid('skeleton', `${skeleton} is none, as in (await client.info()).models[0].skeleton`);
+  requireSkeleton(skeleton);
+  const names = skeleton.joint_names;
   for (const [joint, turn] of Object.entries(rotations)) {
     if (!names.includes(joint)) throw invalid(`rotations.${joint}`, `no joint of ${skeleton.name || 'the skeleton'}; ${hint(joint, names)}`);
     const fine = turn?.length === 3 && Array.from(turn).every(Number.isFinite);

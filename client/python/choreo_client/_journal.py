@@ -20,6 +20,8 @@ class Journal:
     """Calls take their requests from it on threads of their own, one after another."""
 
     def __init__(self, requests):
+        if isinstance(requests, (collections.abc.Mapping, choreography.StreamDanceRequest)):
+            raise invalid("requests", "is one request: put it in a list, [{'config': ...}, ...]")
         if not hasattr(requests, "__iter__"):
             raise invalid("requests", f"{quoted(requests)} is no iterable of messages")
         self._source = iter(requests)

@@ -4,11 +4,14 @@ from __future__ import annotations
 
 import json
 import math
+import os
+import re
 import typing
 import warnings
 
 from . import choreography
 from ._errors import invalid
+from ._pose import require_skeleton
 from ._poses import find
 from ._words import hint, quoted
 
@@ -30,7 +33,8 @@ def read_keys(file: typing.Union[str, bytes, typing.Mapping[str, typing.Any]], s
     """The keys of a key file, its text or what JSON has made of it, as requests of stream_dance: [{"keyframe": ...}, ...]. A key that is held
     becomes several. They come in order, unless some say their time and others their frame. Times are seconds: counts of a song ("9c") need its beats,
     which `choreo` finds. Poses in numbers are `rotations`. Raises ChoreoError. Warns of a jump without a place, which stands."""
-    content = _parsed(file) if isinstance(file, (str, bytes)) else file
+    require_skeleton(skeleton)
+    content = _parsed(file) if isinstance(file, (str, bytes, os.PathLike)) else file
     keys = content.get("keyframes") if isinstance(content, typing.Mapping) else None
     if not isinstance(keys, list):
         raise invalid("file", 'has no list "keyframes"')
@@ -59,6 +63,7 @@ def library_pose(
 ) -> choreography.Pose:
     """The library's pose of this name, for a Keyframe: wherever the dancer is, or at `place`, [x, z] in metres; turned by `facing` degrees.
     `skeleton`: the model's, smpl24. Raises ChoreoError. Warns of a jump without a place, which stands."""
+    require_skeleton(skeleton)
     given = {"pose": name, "facing": facing} | ({} if place is None else {"place": list(place)})
     rotations, root, lost_jump = _pose(given, "library_pose", skeleton)
     if lost_jump:
@@ -67,10 +72,15 @@ def library_pose(
 
 
 def _parsed(text):
+    is_path = isinstance(text, os.PathLike)
     try:
-        return json.loads(text)
+        if not is_path:
+            return json.loads(text)
     except ValueError as error:
-        raise invalid("file", f"is not JSON: {error}") from None
+        is_path = isinstance(text, str) and re.fullmatch(r"[^{}\n]*[./\\][^{}\n]+", text)
+        if not is_path:
+            raise invalid("file", f"is not JSON: {error}") from None
+    raise invalid("file", f"{quoted(text)} is a path: read it, and give its text")
 
 
 def _key(value, field, name, skeleton):

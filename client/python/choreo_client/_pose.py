@@ -16,6 +16,7 @@ def pose(
 ) -> choreography.Pose:
     """The body of `skeleton` at rest, but for `rotations`, {joint name: [x, y, z] in radians}: wherever the dancer is, or at `place`, [x, z] in
     metres. Raises ChoreoError for joints that it lacks, and what is no rotation."""
+    require_skeleton(skeleton)
     names, rotations = list(skeleton.joint_names), rotations or {}
     for joint, turn in rotations.items():
         if joint not in names:
@@ -26,6 +27,12 @@ def pose(
         raise invalid("place", f"{quoted(place)} is not [x, z], two finite numbers")
     root = None if place is None else choreography.Vector3(x=place[0], y=skeleton.pelvis_height, z=place[1])
     return choreography.Pose(root_position=root, rotations=[number for joint in names for number in rotations.get(joint, (0, 0, 0))])
+
+
+def require_skeleton(skeleton):
+    """Raises for what is no body of a model."""
+    if not hasattr(skeleton, "joint_names"):
+        raise invalid("skeleton", f"{quoted(skeleton)} is none, as in client.info().models[0].skeleton")
 
 
 def _is_vector(value, size):
