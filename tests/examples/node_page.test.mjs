@@ -165,6 +165,28 @@ test('a dance waits for a page that takes nothing', () =>
     { behind: 2 },
   ));
 
+test('a page hears of jumps that stand, of the end at once, and of what is too late in seconds', () =>
+  withBackEnd(
+    () => silent,
+    async ({ url }) => {
+      let refused;
+      const { heard } = await watch(url, async (dance, seconds) => {
+        if (seconds < 1 || refused) return;
+        refused = dance.setKey({ id: 'end', time: 6, pose: 'dab' }).then(assert.fail, ({ message }) => message);
+        await dance.setKey({ id: 'jump', time: 5, pose: 'star_jump' });
+        await dance.setKey({ id: 'placed', time: 5.5, pose: 'star_jump', place: [0, 0] });
+        await dance.setKey({ id: 'late', time: 0.5, pose: 'dab' });
+      });
+      assert.equal(await refused, 'time: 6 s is not before the end of the dance, 6 s');
+      const [warning, ...more] = heard.filter(([event]) => event === 'warning');
+      assert.equal(warning[1].id, 'jump');
+      assert.match(warning[1].message, /^star_jump is in the air, but without a place it stands on the floor/);
+      assert.ok(more.every(([, { message }]) => !message.includes('without a place')), JSON.stringify(more));
+      const [, late] = heard.find(([event, { id }]) => event === 'key' && id === 'late');
+      assert.match(late.refused, /^too late: all before \d(\.\d+)? s is settled$/);
+    },
+  ));
+
 test('the back end hears of its wrong orders, and by default so does its console', async () => {
   const wrong = {
     musik: [{ ...silent, musik: [] }, 'musik: no field of an order; did you mean music?'],

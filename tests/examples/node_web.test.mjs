@@ -98,7 +98,6 @@ test('a key that cannot be danced is refused, and the dance goes on', () =>
         key('', 3),
         key(7, 3),
         key('now', 0.5),
-        key('end', 6),
         key('text', 'soon'),
         key('near', 5.03),
         key('none', 4, {}),
@@ -107,20 +106,20 @@ test('a key that cannot be danced is refused, and the dance goes on', () =>
         assert.deepEqual(await ask(address, id, body), [202, '']);
       }
       const long = key('long', 4, { head: 'x'.repeat(70000) });
-      for (const body of ['no JSON', key('tail', 4, { tail: [0, 0, 1] }), key('text', 4, { head: 'up' }), long]) {
+      for (const body of ['no JSON', key('end', 6), key('tail', 4, { tail: [0, 0, 1] }), key('text', 4, { head: 'up' }), long]) {
         refused.push(await ask(address, id, body));
       }
     });
     const said = refused.map(([status, text]) => `${status} ${text.trimEnd()}`);
     assert.match(said.shift(), /^400 .*JSON/);
+    assert.equal(said.shift(), '400 time: 6 s is not before the end of the dance, 6 s');
     assert.match(said.shift(), /^400 rotations\.tail: no joint of smpl24; there are pelvis, /);
     assert.deepEqual(said, ["400 rotations.head: 'up' is not [x, y, z], three finite numbers", '413 more than 65536 characters']);
     const events = heard.map(([, { id, refused }]) => [id, refused]);
-    assert.match(events.splice(2, 1)[0].join(), /^now,frames before \d+ are frozen$/);
+    assert.match(events.splice(2, 1)[0].join(), /^now,too late: all before [\d.]+ s is settled$/);
     assert.deepEqual(events.slice(0, -2), [
       ['', 'keyframe.id: has 0 bytes, not 1 to 256'],
       ['', 'keyframe.id: 7 is no string'],
-      ['end', 'keyframe.time: frame 180 is not before the end of the dance, 180'],
       ['text', "keyframe.time: 'soon' is no finite number"],
       ['near', 'keyframe.time: frame 151 is closer than 2 frames to key "wave" at 150'],
       ['none', 'keyframe.mask: asks for nothing'],

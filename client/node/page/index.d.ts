@@ -36,6 +36,7 @@ export interface ConnectOptions {
   /** Instead of the page's own. */
   fetch?: typeof fetch;
   onKey?: (news: KeyNews) => void;
+  /** A key is not danced as it looks: a jump without a `place`, say, stands on the floor. */
   onWarning?: (warning: { id?: string; message: string }) => void;
   /** The back end's server was lost; another one goes on from this frame, and none is missing. */
   onMoved?: (moved: { frame: number }) => void;
@@ -65,7 +66,7 @@ export interface PageDance {
   /** The earliest time that a new key can surely have. */
   soon(): number;
   /**
-   * Asks for a key, `soon()` where it says no time, and tells what was asked for. The same id again moves it. Rejects, with a DanceError, what makes no key; onKey hears
+   * Asks for a key, `soon()` where it says no time, and tells what was asked for. The same id again moves it. Rejects, with a DanceError, what makes no key, or is after the end; onKey hears
    * of one that comes too late.
    */
   setKey<K extends KeyPose & { id?: string; time?: number }>(key: K): Promise<K & { id: string; time: number }>;

@@ -44,7 +44,7 @@ export interface DanceHandler {
    *   `dance` {id, frame_rate, skeleton}; `frames` {first, places: 3 numbers a frame, turns: 4 a joint}; `key` {id, time} or {id, refused};
    *   `warning` {id, message}; `moved` {frame}: another server goes on; last `over` {frames} or `failed` {code, message, retry_after}.
    * - `POST /dance/ID/keys`: a key, as in a key file (docs/poses.md), {id, time, pose: 'kick'}; or {id, time, rotations: {head: [0, 0.4, 0]}}, which
-   *   sets these joints alone. 202; what is wrong with its time comes as an event. The same id again moves a key.
+   *   sets these joints alone. 202; a key that comes too late, or near another one, is refused by an event. The same id again moves a key.
    * - `DELETE /dance/ID/keys/KEY`: takes it back.
    * - `GET /dance/skeleton`: the body that dances.
    */

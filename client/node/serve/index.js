@@ -61,7 +61,7 @@ class DanceServer {
     const asked = `${request.method} ${[id && ':id', keys, key && ':key', ...more].filter(Boolean).join('/')}`;
     if (asked === 'GET ') await this.#watch(url, request, response);
     else if (asked === 'GET :id' && id === 'skeleton') await this.#tellSkeleton(response);
-    else if (asked === 'POST :id/keys') this.#say(id, response, editsOf(await bodyOf(request), this.#find(id).model.skeleton));
+    else if (asked === 'POST :id/keys') await this.#sayKey(id, request, response);
     else if (asked === 'DELETE :id/keys/:key') this.#say(id, response, [{ remove_keyframe: { id: key } }]);
     else return false;
     return true;
@@ -76,6 +76,14 @@ class DanceServer {
     const dance = this.#dances.get(id);
     if (!dance?.model || dance.over) throw new Refusal(404, `nobody dances ${id}`);
     return dance;
+  }
+
+  async #sayKey(id, request, response) {
+    const body = await bodyOf(request);
+    const dance = this.#find(id);
+    const warnings = []; // told once the key is taken
+    this.#say(id, response, editsOf(body, dance.model.skeleton, (...warning) => warnings.push(warning)));
+    for (const warning of warnings) dance.warn(...warning);
   }
 
   #say(id, response, requests) {

@@ -2,6 +2,7 @@
 import { randomUUID } from 'node:crypto';
 import { EventEmitter, once } from 'node:events';
 import { setTimeout as sleep } from 'node:timers/promises';
+import { invalid } from '../src/error.js';
 import { Refusal } from './refusal.js';
 
 const settled = 0.5; // seconds: what is nearer than this is settled, and on its way to the page
@@ -44,7 +45,14 @@ export class ServedDance {
 
   say(requests) {
     if (this.#edits.length + requests.length > mostWaiting) throw new Refusal(429, 'too many keys wait');
+    const { time } = requests[0].keyframe ?? {};
+    const { seconds } = this.#order;
+    if (time >= seconds) throw invalid('time', `${time} s is not before the end of the dance, ${seconds} s`);
     this.#edits.push(...requests);
+  }
+
+  warn(id, message) {
+    this.#tell('warning', { id, message });
   }
 
   /** The number of the event after the one that a page calls `last`; undefined where that is forgotten. */
@@ -89,7 +97,7 @@ export class ServedDance {
 
   async #dance() {
     const { signal } = this.#end;
-    const onRejected = ({ id, field, reason }) => this.#tell('key', { id, refused: field ? `${field}: ${reason}` : reason });
+    const onRejected = (rejected) => this.#tell('key', { id: rejected.id, refused: this.#whyRefused(rejected) });
     const onResume = (resumed) => {
       this.#tell('moved', { frame: resumed.frame }); // where to is nobody's business
       this.#options.onResume?.(resumed);
@@ -111,6 +119,13 @@ export class ServedDance {
     }
   }
 
+  /** As pages count, in seconds. */
+  #whyRefused({ code, field, reason, earliest_frame }) {
+    const isLate = code === 'REJECTION_CODE_TOO_LATE' || code === 'REJECTION_CODE_FROZEN';
+    if (isLate) return `too late: all before ${Math.ceil((100 * Number(earliest_frame)) / this.model.model_frame_rate) / 100} s is settled`;
+    return field ? `${field}: ${reason}` : reason;
+  }
+
   #take({ header, frames, event, summary }) {
     if (header) {
       this.#shownRate = header.frame_rate;
@@ -121,7 +136,7 @@ export class ServedDance {
       this.#tell('frames', { first: Number(frames.first_frame), places: short(frames.root_positions), turns: short(frames.rotations) });
     }
     if (event?.keyframe_reached) this.#tell('key', { id: event.keyframe_reached.id, time: event.time });
-    if (event?.warning) this.#tell('warning', { id: event.warning.keyframe_id, message: event.warning.message });
+    if (event?.warning) this.warn(event.warning.keyframe_id, event.warning.message);
     if (summary) this.#tell('over', { frames: Number(summary.report.frames) });
   }
 

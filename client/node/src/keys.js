@@ -23,11 +23,16 @@ const mostTurn = { collar: 60, wrist: 90, ankle: 80, foot: 60, toe: 60, spine: 6
 
 /** The keys of a key file as requests of streamDance; index.d.ts says more. */
 export function readKeys(file, skeleton) {
+  return readAndWarn(file, skeleton, (id, message) => console.warn(`warning: key "${id}": ${message}`));
+}
+
+/** The same; `warn(id, message)` hears of keys that will not be danced as they look. */
+export function readAndWarn(file, skeleton, warn) {
   requireSkeleton(skeleton);
   const keys = (typeof file === 'string' || ArrayBuffer.isView(file) ? parsed(file) : file)?.keyframes;
   if (!Array.isArray(keys)) throw invalid('file', 'has no list "keyframes"');
   if (keys.length === 0) throw invalid('keyframes', 'is empty');
-  const read = keys.map((key, at) => readKey(key, `keyframes[${at}]`, `key${at + 1}`, skeleton));
+  const read = keys.map((key, at) => readKey(key, `keyframes[${at}]`, `key${at + 1}`, skeleton, warn));
   const ids = new Set();
   read.forEach(({ key: { id } }, at) => {
     if (ids.has(id)) throw invalid(`keyframes[${at}].id`, `"${id}" stands for an earlier key already`);
@@ -62,7 +67,7 @@ export function libraryPose(name, skeleton, where = {}) {
 const poseOf = ({ rotations, root }) => ({ ...(root && { root_position: { x: root[0], y: root[1], z: root[2] } }), rotations: rotations.flat() });
 
 /** A Keyframe, and for how long it is held. */
-function readKey(value, field, name, skeleton) {
+function readKey(value, field, name, skeleton, warn) {
   if (!isObject(value)) throw invalid(field, `${quoted(value)} is no key`);
   for (const member of Object.keys(value)) {
     if (!members.includes(member)) throw invalid(`${field}.${member}`, `is not known; ${hint(member, members)}`);
@@ -92,7 +97,7 @@ function readKey(value, field, name, skeleton) {
   } else if (joints !== undefined) {
     key.mask = { joints: maskOf(joints, skeleton, `${field}.joints`) };
   }
-  if (read.lostJump && setsFeet(key.mask, skeleton)) console.warn(`warning: key "${id}": ${read.lostJump}`);
+  if (read.lostJump && setsFeet(key.mask, skeleton)) warn(id, read.lostJump);
   key.pose = poseOf(read);
   return { key, hold };
 }
