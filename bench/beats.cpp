@@ -1,6 +1,6 @@
 // Measures beat tracking, without a shift between beats and songs: the F measure at 70 ms, from the
 // first second and from the tenth, for whole songs (FindBeats) and for predictions, either of a
-// live dance with transitions of 2 s (MusicBeats) or of `choreo live` (BeatEar). Songs have a tempo
+// live dance with transitions of 2 s (DanceMusic) or of `choreo live` (BeatEar). Songs have a tempo
 // map (SONG.beats beside SONG.ogg: seconds, one per line), or are synthetic, at every tempo and
 // metre, with known downbeats. An octave error is named and counts half.
 
@@ -24,7 +24,8 @@
 #include "model/audio/decode.h"
 #include "model/audio/made_song.h"
 #include "model/core/grid.h"
-#include "model/dance/music_beats.h"
+#include "model/dance/beat_report.h"
+#include "model/dance/dance_music.h"
 #include "model/metrics/song_beats.h"
 
 namespace choreo::bench {
@@ -52,10 +53,11 @@ std::string Octave(const std::vector<double>& found, const std::vector<double>& 
 std::vector<double> HearLive(const std::vector<float>& mono) {
   AudioFeed feed(kModelSampleRate, 1, 0);
   feed.Push(mono, 0, [] {});
-  MusicBeats music(30, {}, &feed);
+  const ModelInfo model;
+  DanceMusic music(model, {}, &feed);
   BeatReport report(30, &feed, std::nullopt);
   for (int64_t from = 0; from + kTypicalFrames <= feed.ready(); from += kTypicalFrames) {
-    report.Start(music.PlanFrom(from).For(from, from + kTypicalFrames), from);
+    report.Start(music.PlanFor({from, from + kTypicalFrames}, from).Hear().beats, from);
     for (int64_t frame = from; frame < from + kTypicalFrames; ++frame) report.TakeAt(frame);
   }
   return report.reported();

@@ -1,12 +1,10 @@
 #include "server/read_request.h"
 
 #include <algorithm>
-#include <bit>
-#include <cstddef>
-#include <cstring>
 #include <utility>
 
 #include "model/audio/format.h"
+#include "model/audio/pcm.h"
 #include "model/core/error.h"
 #include "model/core/joined.h"
 #include "model/dance/validation.h"
@@ -18,8 +16,6 @@
 namespace choreo {
 namespace {
 
-static_assert(std::endian::native == std::endian::little, "PCM samples are read as they come");
-
 std::vector<Pose> ToHistory(const v1::History& history, const ModelInfo& model) {
   const std::string field = "config.history.poses";
   if (history.poses_size() == 0) throw InvalidArgument(field, "empty; at least 1 pose is needed");
@@ -30,12 +26,20 @@ std::vector<Pose> ToHistory(const v1::History& history, const ModelInfo& model) 
   return poses;
 }
 
+DanceManner MannerOf(const v1::DanceConfig& config) {
+  DanceManner manner{.style = config.style()};
+  if (config.has_temperature()) manner.temperature = config.temperature();
+  if (config.has_music_dynamics()) manner.music_dynamics = config.music_dynamics();
+  if (config.has_variation()) manner.variation = config.variation();
+  return manner;
+}
+
 // Reads the part of the configuration that both RPCs have.
 void FillCommon(const v1::DanceConfig& config, const ModelInfo& model, uint64_t fresh_seed,
                 DanceStart* out) {
   wire::NumbersPerJoint(config.encoding(), "config.encoding");
   out->output_fps = config.frame_rate() == 0 ? model.fps : config.frame_rate();
-  static_cast<DanceManner&>(*out) = wire::MannerOf(config);
+  static_cast<DanceManner&>(*out) = MannerOf(config);
   static_cast<KnownMusic&>(*out) = wire::MusicOf(config);
   out->seed = config.has_seed()           ? config.seed()
               : config.has_continuation() ? config.continuation().seed()
@@ -95,7 +99,7 @@ ValidDance ToDanceConfig(const v1::DanceConfig& message, const ModelInfo& model,
     CheckMusic(message.audio_format());
     config.audio = SamplesOf(message.audio_format());
   }
-  Valid valid(std::move(config), model);
+  ValidDance valid(std::move(config), model);
   // A stream lives long, and needs only the last poses of a long history.
   valid.Change([&](DanceConfig& checked) {
     std::vector<Pose>& poses = checked.history;
@@ -166,7 +170,9 @@ ValidGroup ToGroupRequest(const v1::GenerateTransitionRequest& message, const Mo
     }
     request.audio = SamplesOf(format);
     if (format.encoding() != v1::AUDIO_ENCODING_FILE) {
-      request.samples = ToSamples(message.audio().data(), format, "audio.data");
+      request.samples =
+          ReadPcm(message.audio().data(), format.encoding() == v1::AUDIO_ENCODING_PCM_F32LE,
+                  request.audio->channels, "audio.data");
       if (request.samples.empty()) throw InvalidArgument("audio", "has no samples");
     }
   } else if (message.has_audio()) {
@@ -181,28 +187,6 @@ ControlRequest ToControls(const v1::Controls& controls, const std::string& field
   if (!fields.empty()) return wire::FromProto(controls, field);
   throw InvalidArgument(
       field, "empty; " + Joined(kControls, &ControlRow::name, " or ") + " must be there");
-}
-
-std::vector<float> ToSamples(const std::string& bytes, const v1::AudioFormat& format,
-                             const std::string& field) {
-  const bool floats = format.encoding() == v1::AUDIO_ENCODING_PCM_F32LE;
-  const size_t sample_bytes = floats ? sizeof(float) : sizeof(int16_t);
-  const size_t frame_bytes = sample_bytes * format.channels();
-  if (bytes.size() % frame_bytes != 0) {
-    throw InvalidArgument(field, std::to_string(bytes.size()) + " bytes are not whole samples of " +
-                                     std::to_string(frame_bytes) + " bytes");
-  }
-  std::vector<float> samples(bytes.size() / sample_bytes);
-  if (floats) {
-    std::memcpy(samples.data(), bytes.data(), bytes.size());
-  } else {
-    for (size_t i = 0; i < samples.size(); ++i) {
-      int16_t value = 0;
-      std::memcpy(&value, bytes.data() + i * sizeof value, sizeof value);
-      samples[i] = static_cast<float>(value) / 32768.0F;
-    }
-  }
-  return samples;
 }
 
 }  // namespace choreo

@@ -2,16 +2,14 @@
 
 #include <cstdint>
 #include <string>
-#include <vector>
 
 #include "choreo/v1/choreography.pb.h"
 #include "model/dance/dance_stream.h"
 #include "model/dance/transition_group.h"
 #include "model/plan/transition_spec.h"
 
-/// Requests of the API -> the dance's own types. Everything is checked that the message alone can
-/// tell; failures are Error with the path of the field, beginning with `field` where there is one.
-/// Pure functions, thread-safe.
+/// Requests of the API -> the dance's own types, checked. Each function throws Error with the path
+/// of the field, which begins with `field` where there is one. Pure functions, thread-safe.
 namespace choreo {
 
 /// Converts StreamDance's configuration. `fresh_seed` is used where the message has none.
@@ -25,9 +23,5 @@ ValidGroup ToGroupRequest(const v1::GenerateTransitionRequest& request, const Mo
 
 /// Throws if no control is given. ValidateControls checks the values.
 ControlRequest ToControls(const v1::Controls& controls, const std::string& field);
-
-/// PCM bytes -> samples, interleaved, full scale [-1, 1].
-std::vector<float> ToSamples(const std::string& bytes, const v1::AudioFormat& format,
-                             const std::string& field);
 
 }  // namespace choreo

@@ -9,7 +9,7 @@
 #include "model/core/random.h"
 #include "model/core/threads.h"
 #include "model/dance/audio_feed.h"
-#include "model/dance/music_beats.h"
+#include "model/dance/dance_music.h"
 
 namespace choreo {
 namespace {
@@ -24,12 +24,13 @@ double MeasureMusic() {
   Random random(1);
   for (float& sample : samples) sample = static_cast<float>(0.1 * random.Normal());
   AudioFeed audio(kRate, 1, 0);
-  MusicBeats beats(kModelFps, {}, &audio);
+  const ModelInfo model;
+  DanceMusic music(model, {}, &audio);
   const double begin = ThreadCpuSeconds();
   audio.Push(samples, 0, [] {});
   audio.Finish();
   for (int frame = 0; frame < kFrames; frame += kTypicalFrames)
-    beats.PlanFrom(frame).For(frame, frame + kTypicalFrames);
+    music.PlanFor({frame, frame + kTypicalFrames}, frame).Hear();
   return (ThreadCpuSeconds() - begin) / kFrames;
 }
 

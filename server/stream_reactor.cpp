@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "model/audio/music_analysis.h"
+#include "model/audio/pcm.h"
 #include "model/dance/dance_stream.h"
 #include "proto/wire/continuation_message.h"
 #include "proto/wire/convert.h"
@@ -195,7 +196,9 @@ class DanceSession final : public CallSession<DanceResponse, DanceStream>,
   void TakeAudio(DanceStream& stream, const v1::Audio& audio) {
     if (!audio_) throw InvalidArgument("audio", "comes without config.audio_format");
     if (!SendsFile()) {
-      stream.PushAudio(ToSamples(audio.data(), *audio_, "audio.data"), audio.first_sample());
+      const bool floats = audio_->encoding() == v1::AUDIO_ENCODING_PCM_F32LE;
+      const auto channels = static_cast<int>(audio_->channels());
+      stream.PushAudio(ReadPcm(audio.data(), floats, channels, "audio.data"), audio.first_sample());
       return;
     }
     if (file_decoded_) {

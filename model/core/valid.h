@@ -4,16 +4,11 @@
 
 namespace choreo {
 
-/// A request that has been checked against its model. Code that takes a Valid does not check it
-/// again.
+/// A request that its model can serve. The constructor of a derived type checks it, so code that
+/// takes one does not check it again.
 template <class Request>
 class Valid {
  public:
-  /// Throws what Request::Validate throws.
-  Valid(Request request, const auto& model) : request_(std::move(request)) {
-    request_.Validate(model);
-  }
-
   /// Applies a change that keeps the request valid, such as moving its poses to another frame of
   /// reference.
   void Change(const auto& change) { change(request_); }
@@ -21,6 +16,9 @@ class Valid {
   const Request& operator*() const& { return request_; }
   Request&& operator*() && { return std::move(request_); }
   const Request* operator->() const { return &request_; }
+
+ protected:
+  explicit Valid(Request request) : request_(std::move(request)) {}
 
  private:
   Request request_;

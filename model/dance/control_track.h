@@ -13,7 +13,7 @@
 #include "model/core/error.h"
 #include "model/dance/held_track.h"
 #include "model/dance/path_track.h"
-#include "model/dance/transition.h"
+#include "model/dance/spec_poses.h"
 #include "model/dance/velocity_track.h"
 #include "model/dance/warning.h"
 
@@ -132,9 +132,8 @@ class ControlTrackOf {
     return stance;
   }
 
-  /// Fills in the spec's controls from its first frame, length, history (at least one pose) and
-  /// target, which warnings call `key_id`. Appends `warnings` where controls and keys contradict
-  /// each other.
+  /// Fills in the spec's controls. Reads its first frame, length, history (at least one pose) and
+  /// target. Warns where controls and keys contradict each other; `key_id` names the key.
   void FillControls(const std::string& key_id, TransitionSpec* spec,
                     std::vector<Warning>* warnings) const {
     Request::VisitControls(

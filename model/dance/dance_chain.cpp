@@ -75,9 +75,11 @@ class DanceChain::Job : public SampleJob {
   }
 
   void Prepare(DanceScore::Next next) {
-    beats_ = next.beats.For(segment_.from, segment_.to);
-    next.inputs.beats = SecondsOf(beats_);
+    next.inputs.manner = chain_->manner_;
+    next.inputs.seed = chain_->seed_;
+    next.inputs.music = next.music.Hear();
     PreparedTransition prepared = PrepareTransition(chain_->model_, next.inputs);
+    beats_ = std::move(next.inputs.music.beats);
     run_.emplace(std::move(prepared.run));
     warnings_ = std::move(prepared.warnings);
   }
@@ -99,6 +101,8 @@ DanceChain::DanceChain(SampleQueue& queue, const ValidDance& config,
                        std::shared_ptr<DanceSink> sink)
     : queue_(queue),
       model_(queue.model()),
+      manner_(*config),
+      seed_(config->seed),
       first_frame_(config->FirstFrame()),
       mailbox_(std::move(sink)),
       audio_(config->audio

@@ -91,6 +91,8 @@ class DanceChain : public std::enable_shared_from_this<DanceChain> {
 
   SampleQueue& queue_;
   const ModelInfo& model_;
+  const DanceManner manner_;
+  const uint64_t seed_;
   const int64_t first_frame_;
   std::atomic<bool> cancelled_ = false;
   std::atomic<bool> paused_ = false;

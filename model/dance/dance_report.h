@@ -6,13 +6,12 @@
 #include <vector>
 
 #include "model/dance/audio_feed.h"
+#include "model/dance/beat_report.h"
 #include "model/dance/body_watch.h"
 #include "model/dance/control_track.h"
-#include "model/dance/dance_score.h"
 #include "model/dance/dance_sink.h"
 #include "model/dance/dance_start.h"
 #include "model/dance/mailbox.h"
-#include "model/dance/music_beats.h"
 #include "model/dance/quality_meter.h"
 #include "model/dance/timeline.h"
 

@@ -7,108 +7,25 @@
 #include "model/audio/format.h"
 #include "model/core/error.h"
 #include "model/dance/validation.h"
-#include "model/motion/pose_faults.h"
 
 namespace choreo {
 namespace {
 
 const std::vector<Passage> kNoPassages;
 
-// The energy of the music before a frame.
-double HearEnergyAt(const AudioFeed& audio, int64_t frame) {
-  return HearEnergy(audio.Sounds(frame, kDynamicsMemory));
-}
-
-// Warns of the key's faults, except those that the pose before it has, as when a pose is held.
-void WarnOfPose(const Skeleton& skeleton, const TransitionSpec& spec, const std::string& key_id,
-                std::vector<Warning>* warnings) {
-  const PoseMask& mask = spec.target->mask;
-  const std::vector<std::string> before = PoseFaults(skeleton, spec.history.back(), mask);
-  for (const std::string& fault : PoseFaults(skeleton, spec.target->pose, mask)) {
-    if (std::ranges::find(before, fault) == before.end())
-      warnings->push_back(KeyImpossible(key_id, spec.first_frame + spec.frames - 1, fault));
-  }
-}
-
 }  // namespace
-
-std::optional<EnergyShift> SongEnergy(std::span<const float> energies, const Segment& segment) {
-  if (energies.empty()) return std::nullopt;
-  return EnergyShift{MeanEnergy(energies, segment.from - kTypicalFrames, segment.from),
-                     MeanEnergy(energies, segment.from, segment.to)};
-}
-
-PreparedTransition PrepareTransition(const ModelInfo& model, const TransitionInputs& inputs) {
-  const auto& [manner, seed, controls, segment, before, after, beats, noise_like, audio,
-               song_energy, rows_end] = inputs;
-  TransitionSpec spec;
-  spec.frames = static_cast<int>(segment.to - segment.from);
-  spec.first_frame = segment.from;
-  const std::string key_id = segment.key ? segment.key->id : "";
-  if (segment.key) {
-    spec.target = Target{segment.key->pose, segment.key->mask};
-    spec.hit = segment.key->hit;
-  } else if (segment.later) {
-    const Key& key = *segment.later;
-    spec.later = {{key.pose, key.mask}, static_cast<int>(key.frame + 1 - segment.to)};
-  }
-  spec.after = after;
-  if (before.history.empty()) {
-    const Pose stance =
-        controls.Stance(segment.from, spec.frames == 1 ? spec.target : std::nullopt);
-    spec.history = FillHistory(model, {&stance, 1});
-  } else {
-    spec.history = FillHistory(model, before.history);
-  }
-  spec.stage = before.stage;
-  if (audio != nullptr) {
-    if (model.hearing) {
-      const auto heard = static_cast<int>(rows_end - segment.from);
-      auto& music = spec.music.emplace();
-      music.history = audio->History(segment.from, model.history_frames);
-      music.rows = Eigen::MatrixXf::Zero(model.hearing.features, spec.frames);
-      music.rows.leftCols(heard) = audio->History(rows_end, heard);
-    }
-    const EnergyShift energy =
-        song_energy ? *song_energy
-                    : EnergyShift{HearEnergyAt(*audio, segment.from - kTypicalFrames),
-                                  HearEnergyAt(*audio, segment.from)};
-    spec.energy = {manner.Dynamics() * energy.before, manner.Dynamics() * energy.now};
-  }
-  spec.beats = BeatsAround(beats, model.fps, segment.from, spec.frames);
-  spec.seed = seed;
-  spec.noise_like = noise_like;
-  spec.variation = manner.Variation();
-  spec.style = manner.style;
-  spec.temperature = static_cast<float>(manner.temperature.value_or(model.default_temperature));
-  std::vector<Warning> warnings;
-  controls.FillControls(key_id, &spec, &warnings);
-  if (spec.target) WarnOfPose(model.skeleton, spec, key_id, &warnings);
-  TransitionRun run(model, spec);
-  if (const auto speed = run.required_speed(); speed && speed->TooFast()) {
-    warnings.push_back(
-        IntervalTooShort(model.skeleton, key_id, spec.first_frame, spec.frames, *speed));
-  }
-  return {std::move(run), std::move(warnings)};
-}
 
 DanceScore::DanceScore(const ModelInfo& model, const ValidDance& config, const AudioFeed* audio)
     : timeline_({model.fps, config->FirstFrame(), config->end_frame, audio != nullptr,
                  config->generate_until, model.max_transition_frames, model.sight_frames}),
       controls_(model),
-      beats_(model.fps, config->music_beats, audio, config->music_downbeats),
+      music_(model, *config, audio),
       recurrence_(model.fps, config->Variation() < 1 ? config->music_passages : kNoPassages),
       model_(model),
       audio_(audio),
       first_frame_(config->FirstFrame()),
       end_frame_(config->end_frame),
-      energies_(config->music_energies),
-      has_beats_(!config->music_beats.empty()),
-      manner_(*config),
-      seed_(config->seed),
-      music_id_(config->music_id),
-      // A model that hears music hears that of the transition itself.
-      turn_(config->Dynamics() > 0 && !model.hearing) {
+      recurs_(config->Variation() < 1) {
   if (config->continuation) reached_before_ = config->continuation->reached;
   if (!recurrence_.empty()) timeline_.SetCuts(CutsOf(config->music_passages, model.fps));
 }
@@ -162,7 +79,7 @@ DanceEvents DanceScore::GiveBeats(const std::vector<double>& seconds,
   CheckDownbeats(downbeats, seconds, "music_beats.downbeats");
   if (confidence) ValidateShare(*confidence, "music_beats.confidence");
   const int64_t from = timeline_.Frontier(field);
-  const int64_t late = beats_.AddGiven(seconds, from, field, downbeats, confidence);
+  const int64_t late = music_.GiveBeats(seconds, from, field, downbeats, confidence);
   if (late == 0) return {};
   return {BeatsTooLate(std::llround(seconds.front() * model_.fps), late, from)};
 }
@@ -209,10 +126,8 @@ DanceEvents DanceScore::KeysBehindMusic(const std::string* only) const {
 }
 
 DanceEvents DanceScore::SetMusic(const MusicAnalysis& music) {
-  if (music_id_ == 0) music_id_ = music.id;
-  if (!has_beats_) beats_.ReplaceAll(music);
-  if (energies_.empty()) energies_ = music.energies;
-  if (!recurrence_.empty() || music.passages.empty() || manner_.Variation() >= 1) return {};
+  music_.SetWhole(music);
+  if (!recurrence_.empty() || music.passages.empty() || !recurs_) return {};
   recurrence_ = Recurrence(model_.fps, music.passages);
   timeline_.SetCuts(CutsOf(music.passages, model_.fps));
   return {};
@@ -243,7 +158,7 @@ bool DanceScore::Overtakes(int64_t frame) {
 bool DanceScore::TurnWithMusic(size_t planned, int64_t ready) {
   if (audio_ == nullptr || planned == 0) return true;
   const int64_t stop = timeline_.Planned(planned - 1)->stop;
-  const std::optional<int64_t> turn = turn_.Find(*audio_, ready, stop);
+  const std::optional<int64_t> turn = music_.FindTurn(ready, stop);
   if (turn) timeline_.StopAt(*turn);
   return turn || ready >= stop;
 }
@@ -258,17 +173,11 @@ std::optional<DanceScore::Next> DanceScore::TakeNext(size_t planned, int64_t rea
   // Beats of the whole music are set before its first row is ready, so a transition that waits for
   // one row knows them.
   if (audio_ != nullptr && ready < std::max(rows_end, first_frame_ + 1)) return std::nullopt;
-  if (audio_ != nullptr) turn_.Watch(*audio_, *segment);
   recurrence_.Begin(segment->from);
-  return Next{{.manner = manner_,
-               .seed = seed_ ^ music_id_,
-               .controls = controls_,
+  return Next{{.controls = controls_,
                .segment = *segment,
-               .noise_like = recurrence_.Origins(segment->from, segment->to),
-               .audio = audio_,
-               .song_energy = SongEnergy(energies_, *segment),
-               .rows_end = rows_end},
-              beats_.PlanFrom(segment->from)};
+               .noise_like = recurrence_.Origins(segment->from, segment->to)},
+              music_.PlanFor(*segment, rows_end)};
 }
 
 }  // namespace choreo

@@ -8,45 +8,14 @@
 #include "model/audio/music_analysis.h"
 #include "model/dance/audio_feed.h"
 #include "model/dance/control_track.h"
+#include "model/dance/dance_music.h"
 #include "model/dance/dance_start.h"
-#include "model/dance/music_beats.h"
-#include "model/dance/music_turn.h"
 #include "model/dance/recurrence.h"
 #include "model/dance/timeline.h"
 #include "model/dance/transition.h"
 #include "model/dance/warning.h"
 
 namespace choreo {
-
-/// What a transition of a dance depends on. Values, so that later messages change nothing.
-struct TransitionInputs {
-  DanceManner manner;
-  uint64_t seed = 0;  ///< the music's identity included
-  ControlTrack controls;
-  Segment segment;
-  /// The poses danced or given before the transition; without any it starts from
-  /// ControlTrack::Stance.
-  DancedState before = {};
-  std::optional<Pose> after = {};        ///< TransitionSpec::after
-  std::vector<double> beats = {};        ///< of the music, seconds, ascending
-  std::vector<int64_t> noise_like = {};  ///< TransitionSpec::noise_like
-  const AudioFeed* audio = nullptr;      ///< null without music
-  /// The energy of the song before the transition and in it; none: heard before it.
-  std::optional<EnergyShift> song_energy = {};
-  int64_t rows_end = 0;  ///< rows before it must be ready; the model gets no music from later ones
-};
-
-struct PreparedTransition {
-  TransitionRun run;
-  std::vector<Warning> warnings;  ///< about its controls and its key
-};
-
-/// The energies of a song (KnownMusic::music_energies) before a transition and in it; none if they
-/// are unknown.
-std::optional<EnergyShift> SongEnergy(std::span<const float> energies, const Segment& segment);
-
-/// Prepares one transition of a dance. Throws what TransitionRun throws.
-PreparedTransition PrepareTransition(const ModelInfo& model, const TransitionInputs& inputs);
 
 using DanceEvents = std::vector<DanceEvent>;
 
@@ -56,8 +25,8 @@ class DanceScore {
  public:
   /// A transition that may be sampled.
   struct Next {
-    TransitionInputs inputs;
-    PlannedBeats beats;
+    TransitionInputs inputs;  ///< those that the config alone states are still missing
+    PlannedMusic music;
   };
 
   /// Model and music must outlive it. `audio`: null for a dance without music.
@@ -98,7 +67,8 @@ class DanceScore {
   /// music below `ready`. Returns whether later rows can change nothing.
   bool TurnWithMusic(size_t planned, int64_t ready);
   /// The transition after the first `planned`; none while it may change or needs rows from `ready`
-  /// on. The caller sets `before`. Call once per transition.
+  /// on. The caller adds manner, seed, `before` and what
+  /// it hears of the music. Call once per transition.
   std::optional<Next> TakeNext(size_t planned, int64_t ready);
 
  private:
@@ -108,17 +78,13 @@ class DanceScore {
 
   Timeline timeline_;
   ControlTrack controls_;
-  MusicBeats beats_;
+  DanceMusic music_;
   Recurrence recurrence_;
   const ModelInfo& model_;
   const AudioFeed* audio_;
   const int64_t first_frame_;
   const std::optional<int64_t> end_frame_;
-  std::vector<float> energies_;  // KnownMusic::music_energies
-  const bool has_beats_;         // the config has
-  DanceManner manner_;
-  uint64_t seed_, music_id_;
-  MusicTurn turn_;                          // watches the transition that was taken last
+  const bool recurs_;                       // dances repeated passages alike
   std::vector<KeyReached> reached_before_;  // the dance resumed, and not yet reported again
 };
 

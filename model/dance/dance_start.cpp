@@ -3,13 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "model/audio/feature_stream.h"
 #include "model/audio/format.h"
 #include "model/core/error.h"
 #include "model/core/nearest.h"
 #include "model/dance/audio_feed.h"
-#include "model/dance/music_beats.h"
+#include "model/dance/dance_music.h"
 #include "model/dance/recurrence.h"
 #include "model/dance/timeline.h"
 #include "model/dance/validation.h"
@@ -45,32 +46,34 @@ void ValidateAudioStart(const ModelInfo& model, const DanceStart::Audio& audio,
   }
 }
 
-}  // namespace
-
-void DanceStart::ValidateStart(const ModelInfo& model) const {
-  if (temperature) ValidateTemperature(*temperature, "config.temperature");
-  ValidateShare(Dynamics(), "config.music_dynamics");
-  ValidateShare(Variation(), "config.variation");
-  CheckBeats(music_beats, "config.music_beats");
-  CheckDownbeats(music_downbeats, music_beats, "config.music_downbeats");
-  CheckPassages(music_passages, "config.music_passages");
-  if (music_passages.size() > kMaxPassages) {
-    throw InvalidArgument("config.music_passages", std::to_string(music_passages.size()) +
+// Throws what the constructors of ValidDance and ValidGroup do.
+void CheckStart(const DanceStart& start, const ModelInfo& model) {
+  if (start.temperature) ValidateTemperature(*start.temperature, "config.temperature");
+  ValidateShare(start.Dynamics(), "config.music_dynamics");
+  ValidateShare(start.Variation(), "config.variation");
+  CheckBeats(start.music_beats, "config.music_beats");
+  CheckDownbeats(start.music_downbeats, start.music_beats, "config.music_downbeats");
+  CheckPassages(start.music_passages, "config.music_passages");
+  if (start.music_passages.size() > kMaxPassages) {
+    throw InvalidArgument("config.music_passages", std::to_string(start.music_passages.size()) +
                                                        " passages, the limit is " +
                                                        std::to_string(kMaxPassages));
   }
-  CheckEnergies(music_energies, "config.music_energies");
-  CheckStyle(model, style);
-  ValidateOutputFps(output_fps, "config.frame_rate");
-  CheckHistory(model.skeleton, history, "config.history.poses");
-  if (!continuation) {
-    CheckedIn(first_frame, 0, kMaxDanceFrames, "config.history.first_frame");
+  CheckEnergies(start.music_energies, "config.music_energies");
+  CheckStyle(model, start.style);
+  ValidateOutputFps(start.output_fps, "config.frame_rate");
+  CheckHistory(model.skeleton, start.history, "config.history.poses");
+  if (!start.continuation) {
+    CheckedIn(start.first_frame, 0, kMaxDanceFrames, "config.history.first_frame");
     return;
   }
-  if (!history.empty())
+  if (!start.history.empty())
     throw InvalidArgument("config.history", "and a continuation exclude each other");
-  ValidateContinuation(model, *continuation, allow_inexact_resume, "config.continuation");
+  ValidateContinuation(model, *start.continuation, start.allow_inexact_resume,
+                       "config.continuation");
 }
+
+}  // namespace
 
 std::vector<Warning> DanceStart::Warnings(const ModelInfo& model) const {
   std::vector<Warning> warnings;
@@ -80,49 +83,54 @@ std::vector<Warning> DanceStart::Warnings(const ModelInfo& model) const {
   return warnings;
 }
 
-void DanceConfig::Validate(const ModelInfo& model) const {
-  ValidateStart(model);
-  const int64_t first = FirstFrame();
-  if (end_frame)
-    CheckedIn(*end_frame, std::max<int64_t>(first, 1), kMaxDanceFrames, "config.frames");
-  if (generate_until) CheckedIn(*generate_until, 0, kMaxDanceFrames, "config.generate_until");
-  if (audio) {
-    ValidateAudioStart(model, *audio, first);
-    if (continuation && continuation->audio_from_sample &&
-        audio->first_sample > *continuation->audio_from_sample) {
+ValidDance::ValidDance(DanceConfig request, const ModelInfo& model) : Valid(std::move(request)) {
+  const DanceConfig& config = **this;
+  CheckStart(config, model);
+  const int64_t first = config.FirstFrame();
+  if (config.end_frame)
+    CheckedIn(*config.end_frame, std::max<int64_t>(first, 1), kMaxDanceFrames, "config.frames");
+  if (config.generate_until)
+    CheckedIn(*config.generate_until, 0, kMaxDanceFrames, "config.generate_until");
+  if (config.audio) {
+    ValidateAudioStart(model, *config.audio, first);
+    if (config.continuation && config.continuation->audio_from_sample &&
+        config.audio->first_sample > *config.continuation->audio_from_sample) {
       throw Error(ErrorCode::kOutOfRange, "config.audio_format.first_sample",
-                  std::to_string(audio->first_sample) + " is after " +
-                      std::to_string(*continuation->audio_from_sample) +
+                  std::to_string(config.audio->first_sample) + " is after " +
+                      std::to_string(*config.continuation->audio_from_sample) +
                       ", the first that the continuation needs");
     }
   }
 }
 
-void GroupRequest::Validate(const ModelInfo& model) const {
-  ValidateStart(model);
-  CheckedIn(candidates, 1, kMaxCandidates, "candidates");
-  if (rank_by == RankBy::kLikelihood && !model.likelihood)
+ValidGroup::ValidGroup(GroupRequest group, const ModelInfo& model) : Valid(std::move(group)) {
+  const GroupRequest& request = **this;
+  CheckStart(request, model);
+  CheckedIn(request.candidates, 1, kMaxCandidates, "candidates");
+  if (request.rank_by == RankBy::kLikelihood && !model.likelihood)
     throw InvalidArgument("rank_by", "RANK_BY_LIKELIHOOD, but \"" + model.name +
                                          "\" has no likelihood; RANK_BY_QUALITY is possible");
-  CheckedIn(frames, 1, std::min(kMaxTransitionFrames, model.max_transition_frames), "frames");
-  CheckedIn(FirstFrame(), 0, kMaxDanceFrames, "config.continuation.frame");
-  if (target) {
-    CheckKeyPose(model.skeleton, target->pose, "target");
-    ValidateMask(model.skeleton, target->mask, "target_mask");
+  CheckedIn(request.frames, 1, std::min(kMaxTransitionFrames, model.max_transition_frames),
+            "frames");
+  CheckedIn(request.FirstFrame(), 0, kMaxDanceFrames, "config.continuation.frame");
+  if (request.target) {
+    CheckKeyPose(model.skeleton, request.target->pose, "target");
+    ValidateMask(model.skeleton, request.target->mask, "target_mask");
   }
-  ValidateKeyId(target_id, "target_id");
-  ValidateHit(hit, "target_hit");
-  if (after) {
-    if (!target) throw InvalidArgument("after", "needs a target");
-    CheckKeyPose(model.skeleton, *after, "after");
+  ValidateKeyId(request.target_id, "target_id");
+  ValidateHit(request.hit, "target_hit");
+  if (request.after) {
+    if (!request.target) throw InvalidArgument("after", "needs a target");
+    CheckKeyPose(model.skeleton, *request.after, "after");
   }
-  ValidateControls(controls, model, "controls");
-  if (!audio) {
-    if (!samples.empty()) throw InvalidArgument("audio", "comes without config.audio_format");
+  ValidateControls(request.controls, model, "controls");
+  if (!request.audio) {
+    if (!request.samples.empty())
+      throw InvalidArgument("audio", "comes without config.audio_format");
     return;
   }
-  ValidateAudioStart(model, *audio, FirstFrame());
-  CheckSamples(samples, audio->channels, audio->first_sample);
+  ValidateAudioStart(model, *request.audio, request.FirstFrame());
+  CheckSamples(request.samples, request.audio->channels, request.audio->first_sample);
 }
 
 int64_t LatestFirstSample(int64_t first_frame, double sample_rate, const ModelInfo& model) {

@@ -9,14 +9,14 @@
 #include "model/core/limits.h"
 #include "model/core/valid.h"
 #include "model/dance/control_track.h"
-#include "model/dance/transition.h"
+#include "model/dance/spec_poses.h"
 #include "model/dance/warning.h"
 #include "model/messages/dance_manner.h"
 #include "model/messages/quality_report.h"
 
 namespace choreo {
 
-/// The part that a dance and a single transition share: how to dance, and from where.
+/// What a dance and a single transition share: how to dance, and from where.
 struct DanceStart : DanceManner, KnownMusic {
   uint64_t seed = 0;
   double output_fps = kModelFps;  ///< 1..120; the model's own rate passes through untouched
@@ -48,10 +48,6 @@ struct DanceStart : DanceManner, KnownMusic {
   }
   /// Warnings to send before the first frame.
   std::vector<Warning> Warnings(const ModelInfo& model) const;
-
-  /// Throws Error(kInvalidArgument), or Error(kFailedPrecondition) for a continuation of another
-  /// fingerprint. Fields are named as the API names them: "config.history.poses[0]".
-  void ValidateStart(const ModelInfo& model) const;
 };
 
 /// The start of a stream. Everything else arrives as messages.
@@ -61,10 +57,6 @@ struct DanceConfig : DanceStart {
   std::optional<int64_t> end_frame;
   /// Acts like DanceStream::GenerateUntil before all messages: keys then grant nothing.
   std::optional<int64_t> generate_until;
-
-  /// Throws what ValidateStart throws; Error(kOutOfRange) for audio that begins too late;
-  /// Error(kUnimplemented) for music that the model can't take.
-  void Validate(const ModelInfo& model) const;
 };
 
 /// GenerateTransition: one transition, several candidates of it, ranked.
@@ -81,14 +73,24 @@ struct GroupRequest : DanceStart {
   /// The music around the transition, from audio->first_sample on, interleaved; beyond its end is
   /// silence.
   std::vector<float> samples;
-
-  /// Throws what DanceConfig::Validate throws, with fields of the request, too: "frames",
-  /// "target.rotations[3]", ...
-  void Validate(const ModelInfo& model) const;
 };
 
-using ValidDance = Valid<DanceConfig>;
-using ValidGroup = Valid<GroupRequest>;
+/// A config that its model can dance.
+class ValidDance : public Valid<DanceConfig> {
+ public:
+  /// Throws Error(kInvalidArgument); Error(kFailedPrecondition) for a continuation of another
+  /// fingerprint; Error(kOutOfRange) for audio that begins too late; Error(kUnimplemented) for
+  /// music that the model cannot take. Fields are named as the API names them:
+  /// "config.history.poses[0]".
+  ValidDance(DanceConfig request, const ModelInfo& model);
+};
+
+/// A single transition that its model can dance.
+class ValidGroup : public Valid<GroupRequest> {
+ public:
+  /// Throws what ValidDance throws, with fields of the request, too: "target.rotations[3]".
+  ValidGroup(GroupRequest group, const ModelInfo& model);
+};
 
 /// Last sample frame at which the audio of a dance, or transition, that starts at `first_frame` may
 /// begin without changing a bit.

@@ -72,7 +72,7 @@ class DanceStream {
     chain_->Apply([&](DanceScore& score) { return score.SetControls(request); });
   }
   /// Gives beats, seconds, at least one, valid by CheckBeats and CheckDownbeats (see
-  /// MusicBeats::AddGiven). Those in frozen frames are dropped with a Warning. None may come after
+  /// DanceMusic::GiveBeats). Those in frozen frames are dropped with a Warning. None may come after
   /// KeysComplete.
   void GiveBeats(const std::vector<double>& seconds, const std::vector<double>& downbeats = {},
                  std::optional<double> confidence = {}) {

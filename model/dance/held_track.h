@@ -9,7 +9,7 @@
 #include "model/core/error.h"
 #include "model/core/field.h"
 #include "model/dance/said_since.h"
-#include "model/dance/transition.h"
+#include "model/dance/spec_poses.h"
 #include "model/dance/validation.h"
 #include "model/dance/warning.h"
 

@@ -7,7 +7,7 @@
 
 #include "model/dance/root_path.h"
 #include "model/dance/said_since.h"
-#include "model/dance/transition.h"
+#include "model/dance/spec_poses.h"
 #include "model/dance/warning.h"
 
 namespace choreo {

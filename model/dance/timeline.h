@@ -22,7 +22,7 @@ namespace choreo {
 struct Segment {
   int64_t from = 0;
   int64_t to = 0;
-  std::optional<Key> key;
+  std::optional<Key> key = {};
   int64_t stop = to;
   std::optional<Key> later = {};  ///< the next key in sight, if it is not reached
 };

@@ -6,64 +6,13 @@
 #include "model/core/error.h"
 #include "model/motion/body_limits.h"
 #include "model/motion/kinematics.h"
-#include "model/motion/rotation.h"
+#include "model/motion/pose_faults.h"
 #include "model/plan/plan_stages.h"
 
 namespace choreo {
 namespace {
 
-// Rotation vectors grow with each whole turn of a dance. This shortens those of the last pose, and
-// keeps the earlier ones continuous with it, as training data are.
-std::vector<Pose> CanonicalHistory(const GroundFrame& ground, const std::vector<Pose>& world) {
-  std::vector<Pose> local(world.size());
-  Pose near{{}, Eigen::Matrix3Xd::Zero(3, world.back().rotations.cols())};
-  for (size_t i = world.size(); i-- > 0; near = local[i]) {
-    local[i] = ground.ToLocal(world[i]);
-    MakeContinuous(local[i], near);
-  }
-  return local;
-}
-
-// Less time than this does not suffice to dance away from a pose and back.
-constexpr double kHoldSeconds = 0.4;
-
-// Whether a key is the dancer's present pose.
-bool IsHeld(const Target& target, const Pose& now) {
-  constexpr double kSame = 1e-3;  // radians
-  for (Eigen::Index joint = 0; joint < now.rotations.cols(); ++joint) {
-    if (!target.mask.Constrains(joint) ||
-        RotationDifference(now.rotations.col(joint), target.pose.rotations.col(joint)).norm() >
-            kSame)
-      return false;
-  }
-  return true;
-}
-
-// Whether a key's position is the dancer's present one.
-bool IsThere(const Target& target, const Pose& now) {
-  constexpr double kSamePlace = 0.01;  // metres
-  return (target.pose.root_position - now.root_position).norm() < kSamePlace;
-}
-
-// A key without a position gets it from the path, if there is one. A dancer who holds a pose stays
-// in place.
-std::optional<Target> Placed(std::optional<Target> target, const Controls& controls,
-                             const Pose& now) {
-  if (!target || target->mask.root_position) return target;
-  const ControlCurve& path = controls[kRootPath];
-  if (path.IsGiven()) {
-    target->pose.root_position = path.values.rightCols<1>();
-  } else if (IsHeld(*target, now)) {
-    target->pose.root_position = now.root_position;
-  } else {
-    return target;
-  }
-  target->mask.root_position = true;
-  return target;
-}
-
-constexpr uint32_t kMaxRetakes = 4;
-
+constexpr uint32_t kMaxTransitionRetakes = 4;
 constexpr std::ptrdiff_t kFootworkFrames = 300;  // that footwork processes in one slice, at most
 
 // The last `count` poses of `before` and then the frames, of which it takes the pose.
@@ -83,45 +32,58 @@ TransitionSpec WithHistory(const ModelInfo& model, TransitionSpec spec) {
   return spec;
 }
 
-// The volatile keeps the rounding: GCC 12's SLP vectoriser at -O3 drops double -> float -> double
-// of neighbouring numbers, as in Eigen's cast<float>().cast<double>() of a Vector3d.
-double ToFloat(double value) {
-  volatile float rounded = static_cast<float>(value);
-  return static_cast<double>(rounded);
+// Warns of the key's faults, except those that the pose before it has, as when a pose is held.
+void WarnOfPose(const Skeleton& skeleton, const TransitionSpec& spec, const std::string& key_id,
+                std::vector<Warning>* warnings) {
+  const PoseMask& mask = spec.target->mask;
+  const std::vector<std::string> before = PoseFaults(skeleton, spec.history.back(), mask);
+  for (const std::string& fault : PoseFaults(skeleton, spec.target->pose, mask)) {
+    if (std::ranges::find(before, fault) == before.end())
+      warnings->push_back(KeyImpossible(key_id, spec.first_frame + spec.frames - 1, fault));
+  }
 }
 
 }  // namespace
 
-bool IsHold(const TransitionSpec& world, double fps) {
-  if (!world.target || world.frames >= kHoldSeconds * fps) return false;
-  const Pose& now = world.history.back();
-  return IsHeld(*world.target, now) &&
-         (!world.target->mask.root_position || IsThere(*world.target, now));
-}
-
-Pose RoundToFloat(const Pose& pose) {
-  return {pose.root_position.unaryExpr(&ToFloat), pose.rotations.unaryExpr(&ToFloat)};
-}
-
-std::vector<Pose> FillHistory(const ModelInfo& model, std::span<const Pose> poses) {
-  const size_t tau = static_cast<size_t>(model.history_frames);
-  const Pose earliest = RoundToFloat(poses.empty() ? StandingPose(model.skeleton) : poses.front());
-  std::vector<Pose> history(tau, earliest);
-  const std::span<const Pose> newest = poses.last(std::min(tau, poses.size()));
-  std::ranges::transform(newest, history.end() - std::ssize(newest), &RoundToFloat);
-  return history;
-}
-
-std::vector<double> BeatsAround(std::span<const double> seconds, double fps, int64_t first_frame,
-                                int frames) {
-  const auto first = static_cast<double>(first_frame);
-  auto from = std::ranges::upper_bound(seconds, (first - 1) / fps);
-  auto to = std::ranges::lower_bound(seconds, (first + frames) / fps);
-  if (from != seconds.begin()) --from;
-  if (to != seconds.end()) ++to;
-  std::vector<double> beats(from, to);
-  for (double& beat : beats) beat = beat * fps - first;
-  return beats;
+PreparedTransition PrepareTransition(const ModelInfo& model, const TransitionInputs& inputs) {
+  const auto& [manner, seed, controls, segment, before, after, noise_like, music] = inputs;
+  TransitionSpec spec;
+  spec.frames = static_cast<int>(segment.to - segment.from);
+  spec.first_frame = segment.from;
+  const std::string key_id = segment.key ? segment.key->id : "";
+  if (segment.key) {
+    spec.target = Target{segment.key->pose, segment.key->mask};
+    spec.hit = segment.key->hit;
+  } else if (segment.later) {
+    const Key& key = *segment.later;
+    spec.later = {{key.pose, key.mask}, static_cast<int>(key.frame + 1 - segment.to)};
+  }
+  spec.after = after;
+  if (before.history.empty()) {
+    const Pose stance =
+        controls.Stance(segment.from, spec.frames == 1 ? spec.target : std::nullopt);
+    spec.history = FillHistory(model, {&stance, 1});
+  } else {
+    spec.history = FillHistory(model, before.history);
+  }
+  spec.stage = before.stage;
+  spec.music = music.rows;
+  spec.energy = music.energy;
+  spec.beats = BeatsAround(SecondsOf(music.beats), model.fps, segment.from, spec.frames);
+  spec.seed = seed ^ music.id;
+  spec.noise_like = noise_like;
+  spec.variation = manner.Variation();
+  spec.style = manner.style;
+  spec.temperature = static_cast<float>(manner.temperature.value_or(model.default_temperature));
+  std::vector<Warning> warnings;
+  controls.FillControls(key_id, &spec, &warnings);
+  if (spec.target) WarnOfPose(model.skeleton, spec, key_id, &warnings);
+  TransitionRun run(model, spec);
+  if (const auto speed = run.required_speed(); speed && speed->TooFast()) {
+    warnings.push_back(
+        IntervalTooShort(model.skeleton, key_id, spec.first_frame, spec.frames, *speed));
+  }
+  return {std::move(run), std::move(warnings)};
 }
 
 TransitionRun::TransitionRun(const ModelInfo& model, const TransitionSpec& world)
@@ -176,7 +138,7 @@ Slices<> TransitionRun::Dance(Sampler& sampler) {
   const TransitionRun fresh = *this;
   co_await DanceOnce(sampler);
   if (!MayBeRetaken()) co_return;
-  for (uint32_t take = 1; take <= kMaxRetakes && Strain() > 1; ++take) {
+  for (uint32_t take = 1; take <= kMaxTransitionRetakes && Strain() > 1; ++take) {
     TransitionRun other = fresh;
     // Far from the numbers of other candidates and of a sampler's own retakes.
     other.set_candidate(fresh.spec().candidate + (take << 16));
@@ -333,28 +295,6 @@ DancedState TransitionRun::StateAfter(size_t frames) const {
   if (frames > 0 && (is_there || has_path))
     state.stage->origin = state.history.back().root_position;
   return state;
-}
-
-std::optional<RequiredSpeed> TransitionRun::required_speed() const {
-  if (!spec_->target) return std::nullopt;
-  const Pose& from = spec_->history.back();
-  const Target& target = *spec_->target;
-  const double seconds = spec_->frames / model_->fps;
-  RequiredSpeed speed;
-  // The key did not ask for a position that came from the path, so its error does not count here.
-  if (target.mask.root_position && !spec_->controls[kRootPath].IsGiven()) {
-    speed.root_m_per_s = (target.pose.root_position - from.root_position).norm() / seconds;
-  }
-  for (int joint = 0; joint < from.rotations.cols(); ++joint) {
-    if (!target.mask.Constrains(joint)) continue;
-    const double angle =
-        RotationDifference(from.rotations.col(joint), target.pose.rotations.col(joint)).norm();
-    if (angle / seconds > speed.joint_rad_per_s) {
-      speed.joint_rad_per_s = angle / seconds;
-      speed.joint = joint;
-    }
-  }
-  return speed;
 }
 
 TransitionRun DanceTransition(Sampler& sampler, const TransitionSpec& world,

@@ -8,8 +8,14 @@
 #include <string>
 #include <vector>
 
+#include "model/dance/control_track.h"
+#include "model/dance/dance_music.h"
+#include "model/dance/spec_poses.h"
+#include "model/dance/timeline.h"
+#include "model/dance/warning.h"
 #include "model/messages/continuation.h"
 #include "model/messages/dance_event.h"
+#include "model/messages/dance_manner.h"
 #include "model/motion/canonical.h"
 #include "model/motion/motion.h"
 #include "model/plan/arrival.h"
@@ -33,16 +39,18 @@ struct DancedState {
   std::optional<GroundFrame> stage = {};  ///< TransitionSpec::stage
 };
 
-/// The average speeds needed to reach a key. Paper F, Section 5.2: an interval too short for the
-/// change fails.
-struct RequiredSpeed {
-  double root_m_per_s = 0;
-  double joint_rad_per_s = 0;  ///< of the fastest joint
-  int joint = 0;
-  /// A dance warns beyond these limits: a sprint, and the fastest limbs of real dances.
-  static constexpr double kRootLimit = 5.0;
-  static constexpr double kJointLimit = 15.0;
-  bool TooFast() const { return root_m_per_s > kRootLimit || joint_rad_per_s > kJointLimit; }
+/// What a transition of a dance depends on. Values, so that later messages change nothing.
+struct TransitionInputs {
+  DanceManner manner = {};
+  uint64_t seed = 0;  ///< the dance's; the music's identity is added to it
+  ControlTrack controls;
+  Segment segment;
+  /// The poses danced or given before the transition; without any it starts from
+  /// ControlTrack::Stance.
+  DancedState before = {};
+  std::optional<Pose> after = {};        ///< TransitionSpec::after
+  std::vector<int64_t> noise_like = {};  ///< TransitionSpec::noise_like
+  TransitionMusic music = {};
 };
 
 /// Makes one transition slice by slice: samples it, steers it onto its key, and puts it on its
@@ -52,7 +60,7 @@ class TransitionRun {
  public:
   /// `world`: in the world frame. Its history may have any number of poses: the last tau count,
   /// fewer are padded with the earliest, and none means the neutral stance at the origin. A target
-  /// without a position needs no height. Throws what TransitionSpec::Validate throws.
+  /// without a position needs no height. Throws what ValidSpec throws.
   TransitionRun(const ModelInfo& model, const TransitionSpec& world);
 
   /// In its canonical frame.
@@ -75,7 +83,9 @@ class TransitionRun {
   /// root position, moves the stage there.
   DancedState StateAfter(size_t frames) const;
   /// None without a target.
-  std::optional<RequiredSpeed> required_speed() const;
+  std::optional<RequiredSpeed> required_speed() const {
+    return RequiredSpeedOf(*spec_, model_->fps);
+  }
 
  private:
   void MoveToCanonicalFrame(TransitionSpec& spec);
@@ -109,26 +119,17 @@ class TransitionRun {
   double correction_m_ = 0;
 };
 
-/// Whether the dancer only keeps the pose that she has: its target is that pose where she is, or
-/// anywhere, and so soon that nobody dances away from it and back. No model is asked, and a path
-/// waits. `world`: with at least one pose of history.
-bool IsHold(const TransitionSpec& world, double fps);
+struct PreparedTransition {
+  TransitionRun run;
+  std::vector<Warning> warnings;  ///< about its controls and its key
+};
+
+/// Prepares one transition of a dance. Throws what TransitionRun throws.
+PreparedTransition PrepareTransition(const ModelInfo& model, const TransitionInputs& inputs);
 
 /// Makes a transition at once, then calls `danced` with its number of frames. Throws what
 /// TransitionRun throws.
 TransitionRun DanceTransition(Sampler& sampler, const TransitionSpec& world,
                               const std::function<void(int)>& danced = {});
-
-/// The history of a transition after these poses: exactly tau of them, rounded to floats. Fewer are
-/// padded with the earliest; none mean a dancer who stands.
-std::vector<Pose> FillHistory(const ModelInfo& model, std::span<const Pose> poses);
-
-/// Rounds every number to a float, as clients receive it.
-Pose RoundToFloat(const Pose& pose);
-
-/// Picks from the music's beats (seconds, ascending) those of frames [first_frame, first_frame +
-/// frames), one before and one after, as TransitionSpec::beats: in frames from the first.
-std::vector<double> BeatsAround(std::span<const double> seconds, double fps, int64_t first_frame,
-                                int frames);
 
 }  // namespace choreo

@@ -2,36 +2,19 @@
 
 #include <algorithm>
 #include <atomic>
-#include <cmath>
 #include <mutex>
-#include <tuple>
 #include <utility>
 
 #include "model/core/error.h"
 #include "model/dance/body_watch.h"
+#include "model/dance/dance_music.h"
 #include "model/dance/dance_report.h"
-#include "model/dance/dance_score.h"
 #include "model/dance/mailbox.h"
 #include "model/dance/output_rate.h"
+#include "model/dance/recurrence.h"
+#include "model/dance/transition.h"
 
 namespace choreo {
-
-void RankCandidates(std::vector<CandidateReport>& candidates, RankBy by) {
-  constexpr double kSteeredStep = 0.01;  // metres
-  constexpr double kSkateStep = 0.01;
-  constexpr double kSupportStep = 0.05;  // three frames in two seconds
-  std::ranges::sort(candidates, {}, [by](const CandidateReport& report) {
-    const QualityReport& quality = report.quality;
-    const double unlikely = -quality.log_likelihood.value_or(0);
-    if (by == RankBy::kLikelihood)
-      return std::tuple(0.0, 0.0, 0.0, 0.0, unlikely, report.candidate);
-    const double steered = quality.keys.empty() ? 0 : quality.keys.front().correction_m;
-    const double unsupported = 1 - quality.support.value_or(1);
-    return std::tuple(report.strain, std::floor(steered / kSteeredStep),
-                      std::floor(unsupported / kSupportStep),
-                      std::floor(quality.skate_ratio / kSkateStep), unlikely, report.candidate);
-  });
-}
 
 class TransitionGroup::Impl : public std::enable_shared_from_this<TransitionGroup::Impl> {
  public:
@@ -233,21 +216,19 @@ void TransitionGroup::Impl::Begin() {
   if (const auto& target = request_.target)
     segment.key = Key{request_.target_id, end - 1, target->pose, target->mask, request_.hit};
   // All candidates have the same request, so it is checked and warned of once.
+  DanceMusic music(model_, request_, audio_.get(), /*detects=*/false);
   auto [run, warnings] = PrepareTransition(
       model_,
       {.manner = request_,
-       .seed = request_.seed ^ request_.music_id,
+       .seed = request_.seed,
        .controls = controls_,
        .segment = segment,
        .before = {request_.Before(),
                   request_.continuation ? request_.continuation->stage : std::nullopt},
        .after = request_.after,
-       .beats = request_.music_beats,
        .noise_like =
            Recurrence(model_.fps, request_.music_passages).Origins(segment.from, segment.to),
-       .audio = audio_.get(),
-       .song_energy = SongEnergy(request_.music_energies, segment),
-       .rows_end = end});
+       .music = music.PlanFor(segment, end).Hear()});
   for (const Warning& warning : controls_.BehindEnd(end)) warnings.push_back(warning);
   for (const auto& [label, changed] : changes) {
     if (changed.last < first_frame_)

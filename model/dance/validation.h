@@ -7,7 +7,8 @@
 
 #include "model/core/field.h"
 #include "model/core/limits.h"
-#include "model/dance/transition.h"
+#include "model/dance/spec_poses.h"
+#include "model/messages/continuation.h"
 #include "model/motion/motion.h"
 #include "model/motion/pose_limits.h"
 #include "model/plan/transition_spec.h"

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "model/dance/said_since.h"
-#include "model/dance/transition.h"
+#include "model/dance/spec_poses.h"
 #include "model/dance/warning.h"
 #include "model/messages/quality_report.h"
 #include "model/motion/control_request.h"

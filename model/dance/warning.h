@@ -5,7 +5,8 @@
 #include <string_view>
 #include <vector>
 
-#include "model/dance/transition.h"
+#include "model/dance/spec_poses.h"
+#include "model/messages/continuation.h"
 #include "model/messages/dance_event.h"
 
 namespace choreo {

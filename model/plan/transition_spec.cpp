@@ -1,6 +1,8 @@
 #include "model/plan/transition_spec.h"
 
 #include <algorithm>
+#include <string>
+#include <utility>
 
 #include "model/core/error.h"
 #include "model/motion/pose_limits.h"
@@ -39,35 +41,36 @@ std::optional<Arrival> ArrivalOf(const TransitionSpec& spec, Arrival::Lead lead)
   return Arrival(spec.arrival_frames, spec.frames, *spec.target, spec.history, spec.after, lead);
 }
 
-void TransitionSpec::Validate(const ModelInfo& model) const {
-  if (frames < 1 || frames > model.max_transition_frames) {
-    throw InvalidArgument("frames", std::to_string(frames) + " is not in [1, " +
+ValidSpec::ValidSpec(TransitionSpec request, const ModelInfo& model) : Valid(std::move(request)) {
+  const TransitionSpec& spec = **this;
+  if (spec.frames < 1 || spec.frames > model.max_transition_frames) {
+    throw InvalidArgument("frames", std::to_string(spec.frames) + " is not in [1, " +
                                         std::to_string(model.max_transition_frames) + "]");
   }
   const int tau = model.history_frames;
-  if (static_cast<int>(history.size()) != tau) {
+  if (static_cast<int>(spec.history.size()) != tau) {
     throw InvalidArgument(
-        "history", std::to_string(history.size()) + " poses, must be " + std::to_string(tau));
+        "history", std::to_string(spec.history.size()) + " poses, must be " + std::to_string(tau));
   }
-  for (size_t i = 0; i < history.size(); ++i) {
-    CheckJoints(model.skeleton, history[i], "history[" + std::to_string(i) + "]");
+  for (size_t i = 0; i < spec.history.size(); ++i) {
+    CheckJoints(model.skeleton, spec.history[i], "history[" + std::to_string(i) + "]");
   }
-  if (target) CheckTarget(*target, model, "target");
-  if (later) CheckTarget(later->target, model, "later");
-  if (after) {
-    CheckJoints(model.skeleton, *after, "after");
-    if (!target) throw InvalidArgument("after", "needs a target");
+  if (spec.target) CheckTarget(*spec.target, model, "target");
+  if (spec.later) CheckTarget(spec.later->target, model, "later");
+  if (spec.after) {
+    CheckJoints(model.skeleton, *spec.after, "after");
+    if (!spec.target) throw InvalidArgument("after", "needs a target");
   }
-  if (music && model.hearing) {
-    CheckRows(music->history, tau, model, "audio_history");
-    CheckRows(music->rows, frames, model, "audio_rows");
+  if (spec.music && model.hearing) {
+    CheckRows(spec.music->history, tau, model, "audio_history");
+    CheckRows(spec.music->rows, spec.frames, model, "audio_rows");
   }
-  const size_t like = noise_like.size();
-  if (like != 0 && static_cast<int>(like) != frames) {
-    throw InvalidArgument("noise_like",
-                          std::to_string(like) + " frames, must be 0 or " + std::to_string(frames));
+  const size_t like = spec.noise_like.size();
+  if (like != 0 && static_cast<int>(like) != spec.frames) {
+    throw InvalidArgument("noise_like", std::to_string(like) + " frames, must be 0 or " +
+                                            std::to_string(spec.frames));
   }
-  controls.Check(model.controls, model.name, frames);
+  spec.controls.Check(model.controls, model.name, spec.frames);
 }
 
 }  // namespace choreo

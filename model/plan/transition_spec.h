@@ -114,12 +114,15 @@ struct TransitionSpec {
   // For measuring the model alone, set these to 0 and false.
   int arrival_frames = 12;  ///< Arrival's window
   bool footwork = true;
+};
 
+/// A spec that fits its model.
+class ValidSpec : public Valid<TransitionSpec> {
+ public:
   /// Throws Error(kInvalidArgument) naming the field unless it has the model's shape: frames,
   /// history, joints, mask, music rows and controls; also for a control that the model lacks.
-  void Validate(const ModelInfo& model) const;
+  ValidSpec(TransitionSpec spec, const ModelInfo& model);
 };
-using ValidSpec = Valid<TransitionSpec>;
 
 /// Whether its target fixes the root's position or a joint.
 bool Keyed(const TransitionSpec& spec);

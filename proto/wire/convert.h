@@ -36,7 +36,6 @@ v1::Timing ToProto(const CallTiming& timing);
 v1::Event ToProto(const DanceEvent& event, double fps);
 
 /// A client's, unchecked.
-DanceManner MannerOf(const v1::DanceConfig& config);
 KnownMusic MusicOf(const v1::DanceConfig& config);
 std::vector<Passage> ToPassages(const google::protobuf::RepeatedPtrField<v1::MusicPassage>& sent);
 

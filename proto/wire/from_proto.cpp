@@ -31,14 +31,6 @@ Error Broken(const std::string& what) {
   return {ErrorCode::kInternal, "", "the server broke the protocol: " + what};
 }
 
-DanceManner MannerOf(const v1::DanceConfig& config) {
-  DanceManner manner{.style = config.style()};
-  if (config.has_temperature()) manner.temperature = config.temperature();
-  if (config.has_music_dynamics()) manner.music_dynamics = config.music_dynamics();
-  if (config.has_variation()) manner.variation = config.variation();
-  return manner;
-}
-
 KnownMusic MusicOf(const v1::DanceConfig& config) {
   return {.music_beats = {config.music_beats().begin(), config.music_beats().end()},
           .music_downbeats = {config.music_downbeats().begin(), config.music_downbeats().end()},

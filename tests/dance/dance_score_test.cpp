@@ -77,7 +77,7 @@ TEST_F(DanceScoreTest, ATransitionHasTheEnergyOfItsOwnMusicWhereThatIsKnown) {
   Set(&score, KeyAt("b", 119));
   const auto energy = [&](size_t nth) {
     const auto next = score.TakeNext(nth, feed.ready());
-    return PrepareTransition(model, next->inputs).run.spec().energy;
+    return next->music.Hear().energy;
   };
   EXPECT_EQ(energy(0).now, -0.5);
   EXPECT_EQ(energy(1).before, -0.5);
@@ -113,7 +113,7 @@ TEST_F(DanceScoreTest, LaterMessagesChangeNothingOfATransition) {
   ASSERT_TRUE(next);
   const auto prepare = [&] {
     TransitionInputs inputs = next->inputs;
-    inputs.beats = SecondsOf(next->beats.For(inputs.segment.from, inputs.segment.to));
+    inputs.music = next->music.Hear();
     return PrepareTransition(model, inputs).run.spec();
   };
   const TransitionSpec before = prepare();

@@ -1,5 +1,3 @@
-#include "model/dance/music_turn.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -125,9 +125,11 @@ inline bool SameDance(const Recording& a, const Recording& b) {
   return !b.poses.empty();
 }
 
-/// The request, for a queue's model. Throws what its Validate throws.
-template <typename Request>
-Valid<Request> Checked(const SampleQueue& queue, Request request) {
+/// The request, checked for a queue's model.
+inline ValidDance Checked(const SampleQueue& queue, DanceConfig request) {
+  return {std::move(request), queue.model()};
+}
+inline ValidGroup Checked(const SampleQueue& queue, GroupRequest request) {
   return {std::move(request), queue.model()};
 }
 

@@ -212,7 +212,7 @@ TEST(Resume, RefusesReachedKeysThatCannotBe) {
     config.continuation = whole.continuations[1];
     spoil(config.continuation->reached);
     try {
-      config.Validate(queue->model());
+      ValidDance(config, queue->model());
     } catch (const Error& error) {
       return error.field();
     }
@@ -239,10 +239,10 @@ TEST(Resume, AudioMustBeginEarlyEnough) {
   EXPECT_EQ(*config.continuation->audio_from_sample, latest);
   EXPECT_GT(latest, 0);
   config.audio->first_sample = latest;
-  EXPECT_NO_THROW(config.Validate(queue->model()));
+  EXPECT_NO_THROW(ValidDance(config, queue->model()));
   config.audio->first_sample = latest + 1;
   try {
-    config.Validate(queue->model());
+    ValidDance(config, queue->model());
     FAIL() << "accepted";
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ErrorCode::kOutOfRange);
@@ -251,7 +251,7 @@ TEST(Resume, AudioMustBeginEarlyEnough) {
   // Who listens for beats needs more of it.
   config.audio->first_sample = latest;
   config.continuation->audio_from_sample = latest - 1;
-  EXPECT_THROW(config.Validate(queue->model()), Error);
+  EXPECT_THROW(ValidDance(config, queue->model()), Error);
 }
 
 }  // namespace choreo::resume_test

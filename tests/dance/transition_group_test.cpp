@@ -183,7 +183,7 @@ TEST(TransitionGroup, RanksAsRequestedIfTheModelCan) {
   ExpectError(ErrorCode::kInvalidArgument,
               "rank_by: RANK_BY_LIKELIHOOD, but \"fake\" has no likelihood; RANK_BY_QUALITY is "
               "possible",
-              [&] { request.Validate(without); });
+              [&] { ValidGroup(request, without); });
 }
 
 TEST(TransitionGroup, RanksSupportBeforeSkating) {

@@ -71,7 +71,7 @@ TEST(Validation, ConfigsNameFieldValueAndLimit) {
                                   ErrorCode code = ErrorCode::kInvalidArgument) {
     DanceConfig config;
     spoil(config);
-    return Refusal([&] { config.Validate(sampler.model()); }, code);
+    return Refusal([&] { ValidDance(config, sampler.model()); }, code);
   };
   const Pose rest = RestPose(Skeleton::Smpl24());
   const Continuation good{60, std::vector<Pose>(10, rest), "fake-1"};
@@ -157,7 +157,7 @@ TEST(Validation, TransitionsNameTheFieldTheirFirstFrameCameFrom) {
   GroupRequest request;
   request.frames = 10;
   request.first_frame = kMaxDanceFrames + 1;
-  const auto refusal = [&] { return Refusal([&] { request.Validate(sampler.model()); }); };
+  const auto refusal = [&] { return Refusal([&] { ValidGroup(request, sampler.model()); }); };
   EXPECT_EQ(refusal(), "config.history.first_frame: 108001 is not in [0, 108000]");
   request.continuation = Continuation{
       kMaxDanceFrames + 1, std::vector<Pose>(10, RestPose(Skeleton::Smpl24())), "fake-1"};

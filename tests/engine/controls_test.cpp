@@ -21,7 +21,7 @@ class ControlsTest : public testing::Test {
   }
 
   void ExpectRefused(const std::string& part) const {
-    ExpectError(ErrorCode::kInvalidArgument, part, [&] { spec_.Validate(model_); });
+    ExpectError(ErrorCode::kInvalidArgument, part, [&] { ValidSpec(spec_, model_); });
   }
 
   ModelInfo model_;
@@ -29,11 +29,11 @@ class ControlsTest : public testing::Test {
 };
 
 TEST_F(ControlsTest, AreTakenBothOrEitherOrNone) {
-  EXPECT_NO_THROW(spec_.Validate(model_));
+  EXPECT_NO_THROW(ValidSpec(spec_, model_));
   spec_.controls[kRootPath].values.resize(3, 0);
-  EXPECT_NO_THROW(spec_.Validate(model_));
+  EXPECT_NO_THROW(ValidSpec(spec_, model_));
   spec_.controls = {};
-  EXPECT_NO_THROW(spec_.Validate(model_));
+  EXPECT_NO_THROW(ValidSpec(spec_, model_));
 }
 
 TEST_F(ControlsTest, UnknownControlsAreRefused) {

@@ -1,4 +1,4 @@
-#include "model/dance/music_beats.h"
+#include "model/dance/dance_music.h"
 
 #include <gtest/gtest.h>
 
@@ -8,15 +8,17 @@
 #include <limits>
 #include <random>
 
-#include "model/dance/transition.h"
+#include "model/dance/beat_report.h"
 #include "tests/dance/dances.h"
 #include "tests/support/expect_error.h"
 
-namespace choreo::music_beats_test {
+namespace choreo::dance_music_test {
+
+const ModelInfo model;  // at 30 frames a second
 
 // The beats of a transition that begins.
-std::vector<Beat> Begin(MusicBeats* music, BeatReport* report, int64_t from, int64_t to) {
-  const std::vector<Beat> beats = music->PlanFrom(from).For(from, to);
+std::vector<Beat> Begin(DanceMusic* music, BeatReport* report, int64_t from, int64_t to) {
+  const std::vector<Beat> beats = music->PlanFor({from, to}, from).Hear().beats;
   report->Start(beats, from);
   return beats;
 }
@@ -100,10 +102,10 @@ TEST(MusicBeats, StopAPeriodAfterTheMusic) {
   for (double beat = 0.5; beat < 38; beat += 0.5) by_client.push_back(beat);
   enum class Who { kServer, kClient, kGiven };
   for (const Who who : {Who::kServer, Who::kClient, Who::kGiven}) {
-    MusicBeats music(30, {}, &feed);
+    DanceMusic music(model, {}, &feed);
     BeatReport report(30, &feed, std::nullopt);
-    if (who == Who::kClient) music.AddGiven(by_client, 0, "beats", {}, 0.7);
-    if (who == Who::kGiven) music.AddGiven(by_client, 0, "beats");
+    if (who == Who::kClient) music.GiveBeats(by_client, 0, "beats", {}, 0.7);
+    if (who == Who::kGiven) music.GiveBeats(by_client, 0, "beats");
     std::vector<Beat> beats;
     for (int64_t from = 0; from < 36 * 30; from += 60) {
       Begin(&music, &report, from, from + 60);
@@ -125,9 +127,9 @@ TEST(MusicBeats, StopAPeriodAfterTheMusic) {
 }
 
 TEST(MusicBeats, OfAWholeSongAreAsSureAsTheyWereFound) {
-  MusicBeats music(30, {}, nullptr);
+  DanceMusic music(model, {}, nullptr);
   BeatReport report(30, nullptr, std::nullopt);
-  music.ReplaceAll({.beats = {0.5, 1}, .downbeats = {1}, .confidence = {0.8, 0.9}});
+  music.SetWhole({.beats = {0.5, 1}, .downbeats = {1}, .confidence = {0.8, 0.9}});
   Begin(&music, &report, 0, 60);
   std::vector<Beat> beats;
   for (int64_t frame = 0; frame < 60; ++frame)
@@ -244,7 +246,7 @@ TEST(MusicBeats, AreReportedOnce) {
     for (const bool cut : {false, true}) {
       SCOPED_TRACE(std::to_string(bpm) + (cut ? ", cut" : ", whole"));
       std::mt19937 random(static_cast<uint32_t>(bpm));
-      MusicBeats music(30, {}, &feed);
+      DanceMusic music(model, {}, &feed);
       BeatReport report(30, &feed, std::nullopt);
       for (int64_t from = 0, to = 0; from < 900; from = to) {
         const int64_t frames = cut ? 1 + static_cast<int64_t>(random() % 100) : 60;
@@ -268,7 +270,7 @@ TEST(MusicBeats, RepeatedGridIsReportedOnce) {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> jitter(-0.005, 0.005);
   for (const int64_t lead : {0, 6, 20}) {
-    MusicBeats beats(30, {}, nullptr);
+    DanceMusic beats(model, {}, nullptr);
     BeatReport report(30, nullptr, std::nullopt);
     std::vector<Beat> told;
     for (int64_t from = 0; from < 600; from += 9) {
@@ -277,7 +279,7 @@ TEST(MusicBeats, RepeatedGridIsReportedOnce) {
       for (int beat = 1; beat < 40; ++beat) {
         if (0.5 * beat > static_cast<double>(from) / 30) grid.push_back(0.5 * beat + off);
       }
-      if (!grid.empty()) beats.AddGiven(grid, from + lead, "music_beats");
+      if (!grid.empty()) beats.GiveBeats(grid, from + lead, "music_beats");
       Begin(&beats, &report, from, from + 9);
       for (int64_t frame = from; frame < from + 9; ++frame) {
         for (const Beat& beat : report.TakeAt(frame)) {
@@ -297,10 +299,10 @@ TEST(MusicBeats, AreDetectedAroundGivenOnes) {
   AudioFeed feed(22050, 1, 0);
   feed.Push(Song(22050, 20), 0, [] {});
   feed.Finish();
-  MusicBeats music(30, {}, &feed);
+  DanceMusic music(model, {}, &feed);
   BeatReport report(30, &feed, std::nullopt);
-  EXPECT_EQ(music.AddGiven(std::vector<double>{9, 11.7, 12.2, 12.7}, 284, "beats"), 1);
-  EXPECT_EQ(music.AddGiven(std::vector<double>{12.4, 12.9}, 284, "beats"), 0);
+  EXPECT_EQ(music.GiveBeats(std::vector<double>{9, 11.7, 12.2, 12.7}, 284, "beats"), 1);
+  EXPECT_EQ(music.GiveBeats(std::vector<double>{12.4, 12.9}, 284, "beats"), 0);
   std::vector<Beat> beats;
   for (int64_t from = 224; from < 524; from += 60) {
     Begin(&music, &report, from, from + 60);
@@ -329,8 +331,8 @@ TEST(MusicBeats, LaterMusicChangesNothing) {
     AudioFeed feed(22050, 1, 0);
     feed.Push(song, 0, [] {});
     feed.Finish();
-    MusicBeats music(30, {}, &feed);
-    return BeatsAround(SecondsOf(music.PlanFrom(300).For(300, 360)), 30, 300, 60);
+    DanceMusic music(model, {}, &feed);
+    return BeatsAround(SecondsOf(music.PlanFor({300, 360}, 300).Hear().beats), 30, 300, 60);
   };
   const std::vector<double> heard = around();
   ASSERT_FALSE(heard.empty());
@@ -340,4 +342,4 @@ TEST(MusicBeats, LaterMusicChangesNothing) {
   EXPECT_EQ(around(), heard);
 }
 
-}  // namespace choreo::music_beats_test
+}  // namespace choreo::dance_music_test
