@@ -17,8 +17,8 @@ class Player {
   explicit Player(double fps) : fps_(fps) {}
 
   /// Takes the frames from `first_frame` on, which were made and went out at these times. Returns
-  /// how late they went out, in seconds: after the player needed them or, if they were made even
-  /// later, after that (SampleQueue counts it already).
+  /// how many seconds after the player needed them they went out. The time until they were made
+  /// does not count: SampleQueue counts it.
   double Take(int64_t first_frame, Clock::time_point made, Clock::time_point sent) {
     const Seconds played(static_cast<double>(first_frame) / fps_);
     const Seconds begin = Seconds(made.time_since_epoch()) - played;

@@ -16,7 +16,7 @@ namespace choreo {
 /// Counts unfinished calls per connection. gRPC forgets a call when its client resets it, but its
 /// memory is in use until it is cleaned up, so endless resets would exhaust memory. Closes a
 /// connection with more than `most` such calls, counts it among the floods and holds its address
-/// off; until they are done accepts no other one from there. Thread-safe.
+/// off. Accepts no other connection from there until these calls are cleaned up. Thread-safe.
 class ResetGuard {
  public:
   /// `on_call`: told the peer of each call that begins.

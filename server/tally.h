@@ -47,7 +47,7 @@ class Tally {
     const std::lock_guard lock(mutex_);
     return calls_;
   }
-  /// How long calls took, by method and status: of those kinds that there were.
+  /// How long calls took, by method and status; without kinds that had no call.
   std::map<std::pair<std::string, grpc::StatusCode>, Histogram::Snapshot> seconds() const {
     const std::lock_guard lock(mutex_);
     std::map<std::pair<std::string, grpc::StatusCode>, Histogram::Snapshot> all;
@@ -59,7 +59,7 @@ class Tally {
     return refusals_;
   }
 
-  /// Totals of calls that dance: those that have a Refusal, and all others.
+  /// Totals of calls that dance: refused ones, and all others.
   struct Sum {
     uint64_t served = 0, refused = 0;
   };

@@ -27,11 +27,11 @@ struct Lead {
   Eigen::Vector3d missed = Eigen::Vector3d::Zero();  ///< from the curves to `end`
 };
 
-/// Follows the curves without a jump. If a curve begins away from the dancer or at another velocity,
-/// or ends away from `end`, the path bends to it smoothly: at 1 m/s if there is time, and over at
-/// least half a second. Frames without a curve follow a cubic to the next curve or to `end`; with neither, the
-/// root stays in place. An `end` too soon after the last curve is treated like one on the curve: it
-/// wins or is given up (end_wins). Pure.
+/// Follows the curves without a jump. If a curve begins away from the dancer or at another
+/// velocity, or ends away from `end`, the path bends to it smoothly: at 1 m/s if there is time, and
+/// over at least half a second. Frames without a curve follow a cubic to the next curve or to
+/// `end`; with neither, the root stays in place. If `end` follows the last curve too soon for both,
+/// `end_wins` says which one gives way. Pure.
 Lead LeadPath(const LeadRequest& request);
 
 }  // namespace choreo

@@ -72,7 +72,7 @@ class SampleQueue {
   struct Histograms {
     Histogram::Snapshot slice_s;       ///< seconds of a slice
     Histogram::Snapshot transition_s;  ///< seconds of a transition, summed over its slices
-    /// Seconds from the time at which a dance's first frame was due, or was requested if later, to
+    /// Seconds from when a dance's first frame was due, or was requested if later, to
     /// the completion of its transition; 0 if in time.
     Histogram::Snapshot lateness_s;
   };

@@ -4,9 +4,9 @@
 
 namespace choreo {
 
-/// The liveliness of sampled windows as a function of the energy given to the network, which makes
-/// calm windows too lively and lively ones too calm. Its inverse gives the energy for a wanted
-/// liveliness. Measured in training on validation clips.
+/// The energy that sampled windows have, as a function of the energy asked of the network. The
+/// network makes calm windows too lively and lively ones too calm. The inverse says what to ask of
+/// it. Measured in training on validation clips.
 struct EnergyResponse {
   using Levels = EnergyPrior::Levels;
 

@@ -46,9 +46,10 @@ Slices<std::vector<Pose>> SampleWindow(const FlowModelParts& model, const FlowNe
 
 /// Samples a transition of any length as windows of at most config.window_frames, one after
 /// another, each in its own canonical frame. Every window sees the transition's key if it is at
-/// most kSightFrames away. A window that ends without it, where dancers hardly ever are, is sampled
-/// again. `request` covers the whole transition, of at least one frame (frames <= to_key if there
-/// is a key). The model's TurnPrior chooses the way round to the key, unless the request does.
+/// most kSightFrames away. A window without a key may end in a pose that dancers hardly ever have:
+/// it is then sampled again. `request` covers the whole transition, of at least one frame (frames
+/// <= to_key if there is a key). The model's TurnPrior chooses the way round to the key, unless the
+/// request does.
 Slices<std::vector<Pose>> SampleTransition(const FlowModelParts& model, const FlowNetwork& network,
                                            WindowRequest request, FlowNoise noise);
 

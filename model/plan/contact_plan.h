@@ -41,9 +41,9 @@ struct FootTrack {
   End end = End::kOpen;
 };
 
-/// Decides when each foot stands and where, for the whole plan: the stances that move toes least
-/// from the plan (squares, along the floor and down to it) and balance the body best; each step has
-/// a cost, too (FootworkOptions). One foot supports the body while the other is in the air, except
+/// Decides when each foot stands and where, for the whole plan. It minimises how far toes move from
+/// the plan (squares, along the floor and down to it), how badly the body is balanced, and the cost
+/// of each step (FootworkOptions). One foot supports the body while the other is in the air, except
 /// in flights and where something else carries it. Optimises each foot given the other (dynamic
 /// programming over frames), in turn. Deterministic. A plan of F frames takes F * kMaxStance steps.
 std::array<std::vector<Stance>, 2> PlanContacts(const std::array<FootTrack, 2>& feet, double fps,

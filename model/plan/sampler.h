@@ -29,8 +29,8 @@ class Sampler {
   const ModelInfo& model() const { return model_; }
   const std::string& device() const { return device_; }  ///< "cpu", "cuda:0"
 
-  /// Samples a plan, in slices short enough for a due frame to wait for one. Spec and sampler must
-  /// outlive them.
+  /// Samples a plan, in slices so short that a due frame can wait for one. Spec and sampler must
+  /// outlive the slices.
   virtual Slices<Plan> Begin(const ValidSpec& spec) = 0;
 
   /// Measured by WarmUp; 0 before.
