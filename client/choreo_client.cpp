@@ -23,7 +23,7 @@ void CallWithRetries(Replicas* replicas, const Call& call) {
     const grpc::Status status = call(server, &context);
     if (status.ok()) return;
     const auto wait = patience.Next(status, server.address, replicas->Leave(server));
-    if (!wait) throw ToError(patience.Verdict(), patience.VerdictOf(), replicas->options().tls);
+    if (!wait) throw ToError(patience.Verdict(), patience.VerdictOf(), replicas->options());
     replicas->TellOfRetry(server, status);
     replicas->Wait(*wait, [] { return false; });
   }

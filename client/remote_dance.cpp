@@ -139,7 +139,7 @@ void RemoteDance::Impl::Recover(const grpc::Status& status) {
   attempt_.reset();
   if (cancelled_) throw Error(ErrorCode::kCancelled, "", "the dance was cancelled");
   const auto wait = patience_.Next(status, failed.address, replicas_->Leave(failed));
-  if (!wait) throw ToError(patience_.Verdict(), patience_.VerdictOf(), replicas_->options().tls);
+  if (!wait) throw ToError(patience_.Verdict(), patience_.VerdictOf(), replicas_->options());
   lock.unlock();
   replicas_->TellOfRetry(failed, status);
   replicas_->Wait(*wait, [&] {

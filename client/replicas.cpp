@@ -189,8 +189,7 @@ bool Replicas::Leave(const Server& failed) {
 }
 
 void Replicas::TellOfRetry(const Server& failed, const grpc::Status& status) const {
-  if (options_.retried)
-    options_.retried(failed.address, ToError(status, failed.address, options_.tls));
+  if (options_.retried) options_.retried(failed.address, ToError(status, failed.address, options_));
 }
 
 void Replicas::Wait(std::chrono::duration<double> time, const std::function<bool()>& stop) const {

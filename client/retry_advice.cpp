@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "client/choreo_client.h"
 #include "google/rpc/error_details.pb.h"
 #include "google/rpc/status.pb.h"
 
@@ -80,6 +81,19 @@ std::string ReasonIn(const std::string& message) {
   return text;
 }
 
+/// What a server that is not reached may miss, by its symptom; empty if unknown.
+std::string TlsHint(const std::string& message, const Options& options) {
+  // A server ends so what is no TLS, and connections whose client certificate it does not take.
+  if (message.ends_with("ocket closed")) {
+    if (!options.tls) return "; it may want TLS, which is off";
+    return options.client_certificate.empty() ? "; it may want a client certificate"
+                                              : "; it may refuse this client certificate";
+  }
+  if (message.ends_with("certificate verify failed"))
+    return "; its certificate has expired, or is not of the authority trusted (--ca)";
+  return "";
+}
+
 constexpr const char* kFingerprintField = "config.continuation.fingerprint";
 
 /// Whether another replica may have been started with another value.
@@ -107,7 +121,7 @@ bool IsAway(const grpc::Status& status) {
          std::ranges::any_of(kAway, [&](const char* words) { return message.starts_with(words); });
 }
 
-Error ToError(const grpc::Status& status, const std::string& address, bool tls) {
+Error ToError(const grpc::Status& status, const std::string& address, const Options& options) {
   const Error error = ToError(status);
   google::rpc::RetryInfo info;
   if (error.code() == ErrorCode::kResourceExhausted && FindDetail(status, &info)) {
@@ -117,11 +131,9 @@ Error ToError(const grpc::Status& status, const std::string& address, bool tls) 
                 " s; another server may have room"};
   }
   if (error.code() != ErrorCode::kUnavailable) return error;
-  std::string message =
+  const std::string message =
       IsAway(status) ? "no server is reached: " + ReasonIn(error.what()) : error.what();
-  // This is the symptom of plain text sent to a TLS port.
-  if (!tls && message.ends_with("ocket closed")) message += "; it may want TLS, which is off";
-  return {ErrorCode::kUnavailable, address, message};
+  return {ErrorCode::kUnavailable, address, message + TlsHint(message, options)};
 }
 
 grpc::Status RefusedFingerprint(const std::string& begun, const std::string& address,

@@ -8,6 +8,8 @@
 
 namespace choreo::client {
 
+struct Options;
+
 /// Converts a failed call's status to an error: its code, and its message, which already names the
 /// field.
 Error ToError(const grpc::Status& status);
@@ -15,9 +17,9 @@ Error ToError(const grpc::Status& status);
 /// Whether no server was reached.
 bool IsAway(const grpc::Status& status);
 
-/// The same for a server at this address, or servers at several, with TLS or without: names
-/// unreachable servers, one that may require TLS, and a full one, with when to come again.
-Error ToError(const grpc::Status& status, const std::string& address, bool tls);
+/// The same for a server at this address, or servers at several, called with these options: names
+/// unreachable servers, what of TLS they may miss, and a full one, with when to come again.
+Error ToError(const grpc::Status& status, const std::string& address, const Options& options);
 
 /// The error for a restarted dance on a server of another fingerprint, which would make other
 /// frames. Servers refuse a continuation in the same way; another one may do better.

@@ -81,12 +81,11 @@ TEST(PatienceTest, NamesAllAddressesThatWereTried) {
   for (int i = 0; i < 2; ++i) {
     for (const char* address : {"a:1", "b:1"}) ASSERT_TRUE(patience.Next(away, address, true));
   }
-  EXPECT_STREQ(ToError(patience.Verdict(), patience.VerdictOf(), false).what(),
+  EXPECT_STREQ(ToError(patience.Verdict(), patience.VerdictOf(), {}).what(),
                "a:1, b:1: no server is reached: connection refused");
   ASSERT_TRUE(patience.Next(kBroken, "b:1", true));
   ASSERT_TRUE(patience.Next(away, "a:1", true));
-  EXPECT_STREQ(ToError(patience.Verdict(), patience.VerdictOf(), false).what(),
-               "the device is gone");
+  EXPECT_STREQ(ToError(patience.Verdict(), patience.VerdictOf(), {}).what(), "the device is gone");
 }
 
 TEST(PatienceTest, RetriesAReplicaThatWasAway) {

@@ -85,7 +85,8 @@ TEST_F(TlsTest, OnlyTrustingClientsConnect) {
   const Options trusting = Trusting(*server, authority_);
   const DanceResult danced = Client(trusting).Dance({.seed = 1, .frames = 40}, {}, {});
   EXPECT_EQ(danced.motion.frames.size(), 40U);
-  EXPECT_FALSE(Serves(Trusting(*server, stranger_)));
+  ExpectError(ErrorCode::kUnavailable, "not of the authority trusted (--ca)",
+              [&] { Client(Trusting(*server, stranger_)).IsServing(); });
   ExpectError(ErrorCode::kUnavailable, "; it may want TLS, which is off",
               [&] { Client({.addresses = {server->address()}, .retry_s = 0}).GetServerInfo(); });
   Options of_another_name = trusting;
@@ -278,15 +279,18 @@ TEST_F(TlsTest, ClientsShowARequiredCertificate) {
     Serve(own, config);
     config.tls_client_ca = authority_.certificate();
   });
-  const auto serves = [&](const Certificate& shown) {
+  const auto serving = [&](const Certificate& shown) {
     Options options = Trusting(*server, authority_);
     options.client_certificate = shown.certificate;
     options.client_key = shown.key;
-    return Serves(options);
+    return Client(options).IsServing();
   };
-  EXPECT_FALSE(serves({}));
-  EXPECT_FALSE(serves(stranger_.Issue("intruder")));
-  EXPECT_TRUE(serves(authority_.Issue("guest")));
+  const auto refused = [&](const Certificate& shown, const std::string& hint) {
+    ExpectError(ErrorCode::kUnavailable, hint, [&] { serving(shown); });
+  };
+  refused({}, "; it may want a client certificate");
+  refused(stranger_.Issue("intruder"), "; it may refuse this client certificate");
+  EXPECT_TRUE(serving(authority_.Issue("guest")));
 }
 
 // gRPC names no peer, so this cannot be more than likely.
