@@ -118,7 +118,7 @@ void Run(const DanceOptions& options) {
   const Interruption interruption;
   if (stage) return DanceTogether(options, *stage, music, connection, out);
   std::optional<VmcShow> show;
-  const auto [dance, written, beats] = Perform(options, music, connection, out, &show);
+  const auto [dance, written] = Perform(Plan(options, music, connection), connection, out, &show);
   options.bvh.Write(out, dance.header.skeleton, dance.motion, dance.contacts);
   if (!options.report.empty()) WriteFile(options.report, ReportJson(written));
   std::cout << ReportText(written) << out.string() << std::endl;

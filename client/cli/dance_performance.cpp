@@ -170,9 +170,8 @@ void CheckKeyFiles(const DanceOptions& options, const std::optional<authoring::M
     authoring::ReadKeys(source, Skeleton::Smpl24(), nullptr, CountsOf(options, music));
 }
 
-Performance Perform(const DanceOptions& options, const std::optional<authoring::Music>& music,
-                    const Connection& connection, const std::filesystem::path& out,
-                    std::optional<VmcShow>* show) {
+PlannedDance Plan(const DanceOptions& options, const std::optional<authoring::Music>& music,
+                  const Connection& connection) {
   const client::ModelDescription& model = connection.model(options.model);
   // The seed chooses among the library's key poses, with any model.
   const bool is_seed_for_model = options.seed && !options.keys.empty();
@@ -189,15 +188,15 @@ Performance Perform(const DanceOptions& options, const std::optional<authoring::
   }
   authoring::CheckInADance(std::round(seconds * model.fps) / model.fps, "--seconds");
   const authoring::DanceLength length{std::llround(seconds * model.fps), model.fps};
-  authoring::DanceKeys keys = ChooseKeys(options, music, seconds, length, model);
-  AddEnding(options, music, controls, length, model, &keys);
+  PlannedDance plan{.options = options, .length = length};
+  plan.keys = ChooseKeys(options, music, seconds, length, model);
+  AddEnding(options, music, controls, length, model, &plan.keys);
   options.controls.RequireBegun(controls, length);
-  authoring::RefuseHeldInAir(keys, model.fps, model.skeleton);
-  const std::vector<client::Warning> faults =
-      authoring::KeyFaults(keys, model.fps, model.skeleton);
-  ShowWarnings(faults, {model.fps});
+  authoring::RefuseHeldInAir(plan.keys, model.fps, model.skeleton);
+  plan.faults = authoring::KeyFaults(plan.keys, model.fps, model.skeleton);
+  ShowWarnings(plan.faults, {model.fps});
 
-  client::DanceConfig config;
+  client::DanceConfig& config = plan.config;
   config.model = options.model;
   config.fps = options.fps;
   config.seed = options.seed.value_or(0);
@@ -207,10 +206,15 @@ Performance Perform(const DanceOptions& options, const std::optional<authoring::
   config.music_beats = options.project_beats;
   config.music_downbeats = options.project_downbeats;
   if (music) authoring::ConfigureMusic(*music, seconds, &config);
-  const client::Audio audio =
-      music && model.takes_music ? authoring::AudioFor(music->audio, seconds) : client::Audio{};
-  if (!options.vmc.empty()) show->emplace(options.vmc, model.skeleton);
-  client::DanceResult dance = Dance(connection.client(), config, keys, audio, model.fps, options,
+  if (music && model.takes_music) plan.audio = authoring::AudioFor(music->audio, seconds);
+  return plan;
+}
+
+Performance Perform(const PlannedDance& plan, const Connection& connection,
+                    const std::filesystem::path& out, std::optional<VmcShow>* show) {
+  const auto& [options, length, keys, faults, config, audio] = plan;
+  if (!options.vmc.empty()) show->emplace(options.vmc, connection.model(options.model).skeleton);
+  client::DanceResult dance = Dance(connection.client(), config, keys, audio, length.fps, options,
                                     out, *show ? &**show : nullptr);
   WrittenDance written = Examine(dance.header, dance.report, dance.motion, keys.poses);
   for (size_t i = 0; i < written.keys.size(); ++i)
@@ -218,8 +222,8 @@ Performance Perform(const DanceOptions& options, const std::optional<authoring::
   written.asked = AskedFor(options, dance.header, config);
   written.warnings = faults;
   written.warnings.insert(written.warnings.end(), dance.warnings.begin(), dance.warnings.end());
-  written.beat_hit_chance = BeatHitChance(config.music_beats, length.frames, model.fps);
-  return {std::move(dance), std::move(written), std::move(config.music_beats)};
+  written.beat_hit_chance = BeatHitChance(config.music_beats, length.frames, length.fps);
+  return {std::move(dance), std::move(written)};
 }
 
 }  // namespace choreo::cli

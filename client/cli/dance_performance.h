@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "client/authoring/dance_keys.h"
 #include "client/authoring/music.h"
 #include "client/authoring/written_controls.h"
 #include "client/cli/bvh_options.h"
@@ -45,22 +46,34 @@ struct DanceOptions : DanceManner {
   bool allow_bends = false;
 };
 
+/// A dance that can begin: its options are checked, and its keys fit into it.
+struct PlannedDance {
+  DanceOptions options;
+  authoring::DanceLength length;
+  authoring::DanceKeys keys = {};
+  std::vector<client::Warning> faults = {};  ///< of the keys
+  client::DanceConfig config = {};
+  client::Audio audio = {};
+};
+
 /// A dance and facts about it.
 struct Performance {
   client::DanceResult dance;
   WrittenDance written;
-  std::vector<double> beats;  ///< of the music, seconds
 };
 
-/// Reads the keys for SMPL's skeleton: throws what Perform would throw of their files, before a
+/// Reads the keys for SMPL's skeleton: throws what Plan would throw of their files, before a
 /// server is started.
 void CheckKeyFiles(const DanceOptions& options, const std::optional<authoring::Music>& music);
 
-/// Dances as the options say, to this music, their song's. Writes what came of a failed or
-/// interrupted dance beside `out`. The show of --vmc starts with the dance. Errors name the option,
-/// or the place in a file.
-Performance Perform(const DanceOptions& options, const std::optional<authoring::Music>& music,
-                    const Connection& connection, const std::filesystem::path& out,
-                    std::optional<VmcShow>* show);
+/// Plans a dance as the options say, to this music, their song's, and prints warnings of its keys.
+/// Errors name the option, or the place in a file.
+PlannedDance Plan(const DanceOptions& options, const std::optional<authoring::Music>& music,
+                  const Connection& connection);
+
+/// Dances as planned. Writes what came of a failed or interrupted dance beside `out`. The show of
+/// --vmc starts with the dance. Errors are those of Plan.
+Performance Perform(const PlannedDance& plan, const Connection& connection,
+                    const std::filesystem::path& out, std::optional<VmcShow>* show);
 
 }  // namespace choreo::cli

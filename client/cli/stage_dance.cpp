@@ -49,33 +49,46 @@ bool SameDance(const DanceOptions& a, const DanceOptions& b) {
 
 /// A dance and its dancers.
 struct Shared {
-  DanceOptions options;
+  PlannedDance plan;
   std::string names;
-  Performance performance;
+  fs::path out;  ///< of the first of them
+  Performance performance = {};
 };
 
-/// Performs each different dance once; returns the index of each dancer's dance.
-std::vector<Shared> PerformAll(const DanceOptions& options, const authoring::Dancers& stage,
-                               const std::optional<authoring::Music>& music,
-                               const Connection& connection, const fs::path& out,
-                               std::vector<size_t>* dance_of) {
+/// Plans each different dance once; returns the index of each dancer's dance.
+std::vector<Shared> PlanAll(const DanceOptions& options, const authoring::Dancers& stage,
+                            const std::optional<authoring::Music>& music,
+                            const Connection& connection, const fs::path& out,
+                            std::vector<size_t>* dance_of) {
   std::vector<Shared> dances;
   for (size_t i = 0; i < stage.dancers.size(); ++i) {
     const authoring::Dancer& dancer = stage.dancers[i];
-    DanceOptions own =
+    const DanceOptions own =
         OwnOptions(options, dancer, options.dancers + ":dancers[" + std::to_string(i) + "]");
     const auto same = std::ranges::find_if(
-        dances, [&](const Shared& dance) { return SameDance(dance.options, own); });
+        dances, [&](const Shared& dance) { return SameDance(dance.plan.options, own); });
     dance_of->push_back(static_cast<size_t>(same - dances.begin()));
     if (same != dances.end()) {
       same->names += ", " + dancer.id;
       continue;
     }
-    std::optional<VmcShow> none;
-    Performance performance = Perform(own, music, connection, PathOf(dancer, out), &none);
-    dances.push_back({std::move(own), dancer.id, std::move(performance)});
+    dances.push_back({Plan(own, music, connection), dancer.id, PathOf(dancer, out)});
   }
   return dances;
+}
+
+/// How many frames later each dancer begins.
+std::vector<int64_t> DelaysOf(const DanceOptions& options, const authoring::Dancers& stage,
+                              const std::vector<Shared>& dances,
+                              const std::vector<size_t>& dance_of) {
+  std::vector<int64_t> delays;
+  for (size_t i = 0; i < stage.dancers.size(); ++i) {
+    const PlannedDance& plan = dances[dance_of[i]].plan;
+    const std::string field = options.dancers + ":dancers[" + std::to_string(i) + "].after";
+    delays.push_back(authoring::FramesLater(stage.dancers[i].after, plan.config.music_beats,
+                                            plan.length.fps, plan.length.frames, field));
+  }
+  return delays;
 }
 
 /// Delays a dance's keys and beats; drops keys after the end.
@@ -140,21 +153,21 @@ void DanceTogether(const DanceOptions& options, const authoring::Dancers& stage,
                    const std::optional<authoring::Music>& music, const Connection& connection,
                    const fs::path& out) {
   std::vector<size_t> dance_of;
-  const std::vector<Shared> shared = PerformAll(options, stage, music, connection, out, &dance_of);
+  std::vector<Shared> shared = PlanAll(options, stage, music, connection, out, &dance_of);
+  const std::vector<int64_t> delays = DelaysOf(options, stage, shared, dance_of);
+  // All are checked before the first, which takes long, dances.
+  for (Shared& dance : shared) {
+    std::optional<VmcShow> none;
+    dance.performance = Perform(dance.plan, connection, dance.out, &none);
+  }
   for (const Shared& dance : shared)
     std::cout << dance.names << ":\n" << ReportText(dance.performance.written);
 
   const Skeleton& skeleton = shared.front().performance.dance.header.skeleton;
   std::vector<client::FinishedDance> dances;
-  std::vector<int64_t> delays;
   for (size_t i = 0; i < stage.dancers.size(); ++i) {
-    const Performance& performance = shared[dance_of[i]].performance;
-    const std::string field = options.dancers + ":dancers[" + std::to_string(i) + "].after";
-    delays.push_back(authoring::FramesLater(stage.dancers[i].after, performance.beats,
-                                            performance.written.header.model_fps,
-                                            performance.written.report.frames, field));
-    const client::DanceResult& danced = performance.dance;
-    const double seconds = static_cast<double>(delays.back()) / danced.header.model_fps;
+    const client::DanceResult& danced = shared[dance_of[i]].performance.dance;
+    const double seconds = static_cast<double>(delays[i]) / danced.header.model_fps;
     dances.push_back(authoring::OnStage(skeleton, stage.dancers[i],
                                         {danced.motion, danced.contacts},
                                         std::llround(seconds * danced.motion.fps)));

@@ -19,6 +19,7 @@
 namespace choreo::dancers_test {
 
 using testing::HasSubstr;
+using testing::Not;
 
 const Skeleton& Body() { return Skeleton::Smpl24(); }
 
@@ -198,6 +199,20 @@ TEST_F(DancersTest, HaveKeysInTheirOwnFileOrBesideTheirPlace) {
   Write(R"({"id": "cy", "place": [2, 0], "keyframes": [{"time": 1, "pose": "kik"}]})");
   EXPECT_THAT(DanceAll("--seconds 4").said,
               HasSubstr("dancers.json:dancers[0]:keyframes[0].pose: "));
+}
+
+TEST_F(DancersTest, AreAllCheckedBeforeTheFirstDances) {
+  const auto refused = [this](const std::string& ben, const std::string& part) {
+    Write(R"({"id": "ada", "place": [0, 0]}, {"id": "ben", "place": [2, 0], )" + ben + "}");
+    const Outcome outcome = DanceAll();
+    EXPECT_EQ(outcome.code, 1);
+    EXPECT_THAT(outcome.said, HasSubstr(part));
+    EXPECT_THAT(outcome.said, Not(HasSubstr("dancing")));
+  };
+  refused(
+      R"("keyframes": [{"time": 15, "pose": "kick"}])",
+      "dancers.json:dancers[1]:keyframes[0].time: key \"key1\" at 15 s is after the dance's end");
+  refused(R"("after": 10)", "dancers[1].after: 10 s later she would not dance");
 }
 
 TEST_F(DancersTest, RefuseImpossibleRequests) {
