@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "client/authoring/key_file.h"
+#include "model/core/limits.h"
 #include "model/core/rounded.h"
 
 namespace choreo::authoring {
@@ -53,6 +54,24 @@ void EndHoldsBeforeKeys(double fps, DanceKeys* keys) {
   for (auto i = dropped.rbegin(); i != dropped.rend(); ++i) {
     keys->poses.erase(keys->poses.begin() + static_cast<std::ptrdiff_t>(*i));
     keys->places.erase(keys->places.begin() + static_cast<std::ptrdiff_t>(*i));
+  }
+}
+
+/// When a key stands, as it was written: "at 2 s", "at frame 60".
+std::string WrittenMoment(const client::KeyPose& key) {
+  return key.frame ? "at frame " + std::to_string(*key.frame) : "at " + Rounded(key.time_s) + " s";
+}
+
+/// The server would refuse keys that are too near, but only once the dance has begun.
+void RequireApart(const DanceKeys& keys, double fps) {
+  for (size_t i = 1; i < keys.poses.size(); ++i) {
+    const client::KeyPose &before = keys.poses[i - 1], &key = keys.poses[i];
+    if (FrameOf(key, fps) - FrameOf(before, fps) >= kMinKeyDistance) continue;
+    throw InvalidArgument(FieldOf(keys.places[i], key.frame ? ".frame" : ".time"),
+                          "key \"" + key.id + "\" " + WrittenMoment(key) + " is closer than " +
+                              std::to_string(kMinKeyDistance) + " frames (" +
+                              Rounded(kMinKeyDistance / fps) + " s) to key \"" + before.id + "\" " +
+                              WrittenMoment(before));
   }
 }
 
@@ -134,7 +153,9 @@ DanceKeys ReadDanceKeys(const std::vector<std::string>& sources, const DanceLeng
       read.places.push_back(place);
     }
   }
-  return ByTime(std::move(read), length.fps);
+  DanceKeys keys = ByTime(std::move(read), length.fps);
+  RequireApart(keys, length.fps);
+  return keys;
 }
 
 Error InTermsOf(const DanceKeys& keys, const Error& error) {

@@ -55,7 +55,7 @@ DanceKeys ByTime(DanceKeys keys, double fps);
 
 /// Reads key poses from sources (see ReadKeys in key_file.h) and fits each into the dance. Throws
 /// like ReadKeys, and Error(kInvalidArgument), whose field begins with the key's place, for a
-/// duplicate id.
+/// duplicate id, and for keys closer than kMinKeyDistance.
 DanceKeys ReadDanceKeys(const std::vector<std::string>& sources, const DanceLength& length,
                         const Skeleton& skeleton, const Counts& counts = {});
 

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "client/authoring/dance_keys.h"
 #include "client/authoring/key_faults.h"
 #include "client/convert.h"
 #include "model/formats/motion_file.h"
@@ -443,6 +444,24 @@ TEST(KeyFileTest, TheDemoBeginsQuicklyAndBowsLast) {
   EXPECT_LT(keys[1].time_s, 2);
   EXPECT_EQ(keys.back().id, "bow");
   EXPECT_LT(keys.back().time_s, 24);
+}
+
+TEST_F(MotionKeysTest, KeysOfADanceAreTooCloseInTheWordsOfTheirFile) {
+  const auto refused = [&](const std::string& when, const std::string& message) {
+    std::ofstream(folder_ / "close.json")
+        << R"({"keyframes": [{"id": "b", "pose": "kick", )" + when;
+    ExpectError(ErrorCode::kInvalidArgument, (folder_ / "close.json").string() + message, [&] {
+      ReadDanceKeys({(folder_ / "close.json").string()}, {300, 30}, Body());
+    });
+  };
+  refused(
+      R"("time": 2.02}, {"id": "a", "pose": "bow", "time": 2}]})",
+      ":keyframes[0].time: key \"b\" at 2.02 s is closer than 2 frames (0.067 s) to key \"a\" at "
+      "2 s");
+  refused(
+      R"("frame": 61}, {"id": "a", "pose": "bow", "frame": 60}]})",
+      ":keyframes[0].frame: key \"b\" at frame 61 is closer than 2 frames (0.067 s) to key \"a\" "
+      "at frame 60");
 }
 
 TEST(KeyFileTest, AJumpWithoutAPlaceIsWarnedOf) {
