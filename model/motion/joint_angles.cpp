@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "model/core/error.h"
-#include "model/core/joined.h"
+#include "model/core/nearest.h"
 #include "model/motion/rotation.h"
 
 namespace choreo {
@@ -43,8 +43,16 @@ AngleRange RangeOf(const Skeleton& skeleton, int joint) {
 int RequireJoint(const Skeleton& skeleton, const std::string& name, const std::string& field) {
   const int joint = skeleton.Find(name);
   if (joint >= 0) return joint;
-  throw InvalidArgument(field, "\"" + name + "\" is no joint of " + skeleton.name + ", which has " +
-                                   Joined(skeleton.joint_names));
+  // "elbow_left" is left_elbow.
+  const size_t side = name.rfind('_');
+  Nearest meant(side == std::string::npos ? name
+                                          : name.substr(side + 1) + "_" + name.substr(0, side));
+  Nearest misspelt(name);
+  for (const std::string& known : skeleton.joint_names) meant.Offer(known), misspelt.Offer(known);
+  const std::string near = misspelt.nearest().empty() ? meant.nearest() : misspelt.nearest();
+  throw InvalidArgument(field, "\"" + name + "\" is no joint of " + skeleton.name +
+                                   (near.empty() ? ", which has " + Joined(skeleton.joint_names)
+                                                 : "; did you mean " + near + "?"));
 }
 
 Eigen::Vector3d RotationFromDegrees(const Skeleton& skeleton, int joint,
