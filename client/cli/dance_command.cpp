@@ -151,7 +151,7 @@ void AddDanceCommand(CLI::App& program) {
       "--end", options->end,
       "A pose to end in: of the library (bow, stand, ...), or as --keyframes takes one. It is "
       "reached on the last beat that leaves a second, and held to the end; keys that stand there "
-      "make way. A library pose faces the audience.");
+      "make way. A library pose faces the audience, that of --dancers as each is turned.");
   AddAllowBends(*command, options->allow_bends);
   command
       ->add_option(
