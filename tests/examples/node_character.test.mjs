@@ -280,7 +280,12 @@ test('what is no body says why', async () => {
     assert.throws(() => new Character(copy, body, options), { name: 'TypeError', message });
   };
   const at = (name) => bones.findIndex((bone) => bone.name === `mixamorig:${name}`);
-  refused((all) => (all[at('LeftLeg')].name = 'x'), 'bones: none of them is the left_knee');
+  refused((all) => (all[at('LeftLeg')].name = 'x'), /^bones: none of them is the left_knee; the others are (.*, )?x\b.*: say which is by { map: { left_knee: name } }$/);
+  refused((all) => (all[at('LeftUpLeg')].name = 'x'), /^bones: none of them is the left_hip; the others are (.*, )?x\b.*: say which is by { map: { left_hip: name } }$/);
+  refused((all) => all.forEach((bone) => (bone.name = '')), /^bones: none of them is the pelvis, left_hip, .* and 8 more; no others have names: say which is by /);
+  const renamed = structuredClone(bones);
+  renamed[at('LeftUpLeg')].name = 'x';
+  assert.deepEqual(new Character(renamed, body, { map: { left_hip: 'x' } }).bones, new Character(bones, body).bones);
   refused((all) => (all[2].parent = 99), 'bones[2].parent: 99 is no bone, and not -1');
   refused((all) => (all[at('Hips')].parent = at('Spine')), 'bones: some are their own ancestors');
   refused((all) => (all[3].rotation = [0, 0, NaN, 1]), 'bones[3].rotation: 0,0,NaN,1 is not 4 finite numbers');

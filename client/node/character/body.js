@@ -13,14 +13,11 @@ const leastBone = 1e-4;
 const sides = ['left_', 'right_'];
 const needed = ['hip', 'knee', 'ankle', 'shoulder', 'elbow', 'wrist'];
 
-/** The first needed bone that is missing. */
-export function missingBone(bones) {
-  if (!('pelvis' in bones)) return 'pelvis';
-  for (const side of sides) {
-    const missing = needed.find((bone) => !(side + bone in bones));
-    if (missing) return side + missing;
-  }
-  return 'head' in bones || 'neck' in bones ? undefined : 'head';
+/** The needed bones that are missing. */
+export function missingBones(bones) {
+  const limbs = sides.flatMap((side) => needed.map((bone) => side + bone));
+  const missing = ['pelvis', ...limbs].filter((bone) => !(bone in bones));
+  return 'head' in bones || 'neck' in bones ? missing : [...missing, 'head'];
 }
 
 /** spine1, spine2 ... or neck, neck2 ..., as far as there are, from below. */
@@ -38,8 +35,6 @@ export function chain(bones, name) {
  * rests in the skeleton. `bones`: node by bone. `places`: of the nodes at rest. `smpl`: SMPL's skeleton.
  */
 export function makeBody(bones, places, smpl) {
-  const missing = missingBone(bones);
-  if (missing) throw new TypeError(`bones: none of them is the ${missing}`);
   for (const name of ['spine', 'neck']) {
     if (Object.keys(bones).filter((bone) => bone.startsWith(name)).length !== chain(bones, name).length) {
       throw new TypeError(`bones: those of the ${name} are not numbered one after the other, from below`);

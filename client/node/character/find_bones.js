@@ -1,6 +1,6 @@
 // Which nodes of a rig are the bones of its body. model/fit/find_bones.cpp, in JavaScript, for rigs that have one body.
 import { allBones, bonesByNames } from './human_bones.js';
-import { chain, missingBone } from './body.js';
+import { chain, missingBones } from './body.js';
 
 function isBelow(node, above, bones) {
   let at = node;
@@ -66,7 +66,7 @@ function findChest(bones, found) {
 /** Node by bone: of `map`, then of `table`, which a file itself has, then by the names. */
 export function findBones(bones, map = {}, table = {}) {
   let found = { ...table };
-  if (missingBone(found)) {
+  if (missingBones(found).length > 0) {
     const taken = Object.values(table);
     found = Object.fromEntries(Object.entries(bonesByNames(uniqueNames(bones))).filter(([, node]) => !taken.includes(node)));
     Object.assign(found, table);
@@ -74,5 +74,25 @@ export function findBones(bones, map = {}, table = {}) {
   for (const [bone, choice] of Object.entries(map)) choose(bone, choice, bones, found);
   if (!('pelvis' in map)) findPelvis(bones, found);
   if (!Object.keys(map).some((bone) => bone.startsWith('spine'))) findChest(bones, found);
+  requireBones(bones, found);
   return found;
+}
+
+const few = 6; // names in an error
+
+function listed(names) {
+  const more = names.length > few ? ` and ${names.length - few} more` : '';
+  return names.slice(0, few).join(', ') + more;
+}
+
+/** Throws where needed bones are missing, and names those that may be them: near the root, as limbs are, before fingers. */
+function requireBones(bones, found) {
+  const missing = missingBones(found);
+  if (missing.length === 0) return;
+  const depth = (node) => (node < 0 ? 0 : 1 + depth(bones[node].parent));
+  const taken = Object.values(found);
+  const others = bones.map(({ name }, node) => ({ name, node })).filter(({ name, node }) => name && !taken.includes(node));
+  const names = others.map(({ name, node }) => [depth(node), name]).sort(([a], [b]) => a - b).map(([, name]) => name);
+  const seen = names.length > 0 ? `the others are ${listed(names)}` : 'no others have names';
+  throw new TypeError(`bones: none of them is the ${listed(missing)}; ${seen}: say which is by { map: { ${missing[0]}: name } }`);
 }

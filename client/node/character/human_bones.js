@@ -51,12 +51,12 @@ function findIn(rig, prefix, index, spell) {
 /** Whether this may stand before all names of a rig. */
 const isPrefix = (text) => text === '' || text.startsWith('mixamorig') || /[:_\-|. ]$/.test(text);
 
-/** Prefixes under which the left thigh exists. Rigify's DEF- bones move the mesh. */
+/** Prefixes under which the left thigh exists, or else the right one. Rigify's DEF- bones move the mesh. */
 function prefixesOf(rig, names, spell) {
   const isPlain = spell === plain;
   const prefixes = ['', isPlain ? 'def' : 'DEF-'];
-  for (const candidate of split(rig.limbs[0])) {
-    const thigh = spell(onSide(candidate, rig, true));
+  const thighs = [true, false].flatMap((left) => split(rig.limbs[0]).map((candidate) => onSide(candidate, rig, left)));
+  for (const thigh of thighs.map(spell)) {
     for (const name of names) {
       if (!name.endsWith(thigh) || prefixes.length === mostPrefixes) continue;
       const prefix = name.slice(0, name.length - thigh.length);
