@@ -122,6 +122,11 @@ std::string InOurWords(const CLI::App& app, const TomlFile& file, const CLI::Par
     return "--config: no file " + said.substr(0, said.find(" was not readable"));
   if (dynamic_cast<const CLI::ConfigError*>(&error)) {  // "INI was not able to parse KEY"
     const std::string key = said.substr(said.rfind(' ') + 1);
+    // "check: This option is not allowed in a configuration file"
+    if (const size_t end = said.find(": This option is not allowed"); end != std::string::npos) {
+      const std::string name = said.substr(0, end);
+      return file.PlaceOf(name) + name + " is a flag only";
+    }
     return Unknown(app, file.PlaceOf(key), key);
   }
   const std::vector<std::string> extra = app.remaining();

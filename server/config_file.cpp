@@ -21,7 +21,15 @@ std::string TextOf(const toml::node& node) {
   return text.str();
 }
 
-/// What a line that is no TOML lacks; empty unless it is likely that.
+bool IsToml(const std::string& line) try {
+  static_cast<void>(toml::parse(line));
+  return true;
+} catch (const toml::parse_error&) {
+  return false;
+}
+
+/// What a line that is no TOML lacks; empty unless it is likely that. A line that repeats a setting
+/// lacks nothing.
 std::string MissingMarks(const std::string& text, size_t number) {
   // Also an address in brackets, which begins like a list.
   static const std::regex kBare(R"(^\s*([\w-]+)\s*=\s*(\[[0-9a-fA-F]*:|[^\s"'\[{#]))");
@@ -29,7 +37,7 @@ std::string MissingMarks(const std::string& text, size_t number) {
   std::string line;
   for (size_t i = 0; i < number; ++i) std::getline(lines, line);
   std::smatch found;
-  if (!std::regex_search(line, found, kBare)) return "";
+  if (!std::regex_search(line, found, kBare) || IsToml(line)) return "";
   return found[1].str() + ": texts need quotation marks; ";
 }
 

@@ -129,8 +129,11 @@ TEST(ServerConfigTest, SaysWhereInTheFileAnErrorIs) {
   for (const char* bare : {"listen = 127.0.0.1:0\n", "listen = [::]:50051\n", "listen=::1 # all\n",
                            "listen = localhost:50051"})
     EXPECT_TRUE(said(bare).starts_with(at + "listen: texts need quotation marks; ")) << said(bare);
-  for (const char* other : {"listen = \"127.0.0.1:0\n", "workers =\n", "model = [\"free\"\n"})
+  for (const char* other : {"listen = \"127.0.0.1:0\n", "workers =\n", "model = [\"free\"\n",
+                            "workers = 2\nworkers = 3\n"})
     EXPECT_EQ(said(other).find("quotation marks"), std::string::npos) << said(other);
+  EXPECT_EQ(said("check = true\n"), at + "check is a flag only\n");
+  EXPECT_EQ(said("config = \"x\"\n"), at + "config is a flag only\n");
   EXPECT_TRUE(said("workers = 2\nworkers = 3\n").starts_with("choreod: " + path + ":3: "));
 }
 
