@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <random>
+#include <utility>
 
 #include "model/core/address.h"
 
@@ -63,7 +64,17 @@ std::string PeerOf(int connection) {
     return "ipv4:" + std::string(text) + port;
   }
   inet_ntop(AF_INET6, &of.sin6_addr, text, sizeof text);
-  return "ipv6:%5B" + std::string(text) + "%5D" + port;
+  return "ipv6:[" + std::string(text) + ']' + port;
+}
+
+std::string PeerOf(const grpc::ServerContextBase& call) {
+  std::string peer = call.peer();
+  // A scope stands behind a percent sign: "fe80::1%eth0".
+  using Code = std::pair<const char*, const char*>;
+  for (const auto& [code, sign] : {Code("%5B", "["), Code("%5D", "]"), Code("%25", "%")}) {
+    if (const size_t at = peer.find(code); at != peer.npos) peer.replace(at, 3, sign);
+  }
+  return peer;
 }
 
 std::string AddressOf(const std::string& peer) { return SplitAddress(peer).host; }
@@ -85,7 +96,7 @@ bool IsStreamId(std::string_view text) {
 
 Caller CallerOf(const grpc::CallbackServerContext& context) {
   Caller caller;
-  caller.peer = context.peer();
+  caller.peer = PeerOf(context);
   if (const auto parent = HeaderOf(context, "traceparent"); IsTraceparent(parent)) {
     caller.trace_id = parent.substr(kTraceAt, kTraceDigits);
     caller.span_id = parent.substr(kSpanAt, kSpanDigits);

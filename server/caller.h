@@ -9,7 +9,7 @@ namespace choreo {
 
 /// The caller of a call, for the log.
 struct Caller {
-  std::string peer;    ///< gRPC's: an address and a port
+  std::string peer;    ///< an address and a port
   std::string holder;  ///< its token's holder; empty without a token
   /// Its W3C traceparent's ids, hexadecimal, which connect this call with its client's work. Empty
   /// without a valid one.
@@ -29,8 +29,11 @@ inline constexpr const char* kResumedFromHeader = "choreo-resumed-from";
 std::string FreshStreamId();
 bool IsStreamId(std::string_view text);
 
-/// A connection's peer in gRPC's form; empty for other descriptors.
+/// A connection's peer, an address and a port as in "ipv6:[::1]:60092"; empty for other
+/// descriptors.
 std::string PeerOf(int connection);
+/// A call's peer in the same form; gRPC's own has %5B and %5D for the brackets.
+std::string PeerOf(const grpc::ServerContextBase& call);
 
 /// A peer without its port.
 std::string AddressOf(const std::string& peer);

@@ -57,7 +57,7 @@ class MakeCounted final : public grpc::experimental::ServerInterceptorFactoryInt
  public:
   explicit MakeCounted(ResetGuard& guard) : guard_(guard) {}
   Interceptor* CreateServerInterceptor(grpc::experimental::ServerRpcInfo* call) override {
-    return new Counted(guard_, call->server_context()->peer());
+    return new Counted(guard_, PeerOf(*call->server_context()));
   }
 
  private:

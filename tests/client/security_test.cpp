@@ -334,6 +334,16 @@ TEST_F(TlsTest, FailedHandshakesAreCountedAndTheirPeersNamed) {
                                                  "ipv4:127.0.0.1:[0-9]+"));
 }
 
+// gRPC's own form is "ipv6:%5B::1%5D:50051".
+TEST_F(SecurityTest, AddressesInTheLogHaveTheirBrackets) {
+  const LogCapture log;
+  const TestServer server(std::make_unique<FakeSampler>(), "[::1]:0");
+  Client({.addresses = {"[::1]:" + std::to_string(server.port())}}).GetServerInfo();
+  ExpectEventually(
+      [&] { return log.text().find("GetServerInfo ipv6:[::1]:") != std::string::npos; },
+      "the call has its line");
+}
+
 TEST_F(TlsTest, FilesThatCannotBeUsedAreNamed) {
   const Certificate own = authority_.Issue("own"), other = authority_.Issue("other");
   ExpectError(ErrorCode::kInvalidArgument, "--tls-key", [&] {

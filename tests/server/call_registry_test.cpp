@@ -48,7 +48,7 @@ class CallRegistryTest : public testing::Test {
 
 TEST_F(CallRegistryTest, CallersHaveTheirOwnPlaces) {
   for (int i = 0; i < kOfPeer - 1; ++i) EXPECT_TRUE(Come("ipv4:10.0.0.1"));
-  EXPECT_TRUE(Come("ipv6:%5B::1%5D"));
+  EXPECT_TRUE(Come("ipv6:[::1]"));
   EXPECT_TRUE(Come("ipv4:10.0.0.1"));
   EXPECT_EQ(RefusalOf("ipv4:10.0.0.1"), Refusal::kStreamsOfPeer);
   EXPECT_EQ(RefusalOf("ipv4:10.0.0.2"), Refusal::kStreams);
