@@ -18,8 +18,7 @@ std::string Date(int64_t seconds) {
 
 bool HasExpired(int64_t expires) { return expires <= std::time(nullptr); }
 
-void RequireUnexpired(const std::string& field, const std::filesystem::path& file,
-                      int64_t expires) {
+void RequireValid(const std::string& field, const std::filesystem::path& file, int64_t expires) {
   if (!HasExpired(expires)) return;
   throw InvalidArgument(field, file.string() + " expired on " + Date(expires));
 }
@@ -53,12 +52,17 @@ std::optional<bool> CertificateFiles::Refresh() {
     const bool has_new_pair = now.pair != used_.pair,
                has_new_client_ca = now.client_ca != used_.client_ca;
     // One that expired in use keeps no other from being renewed.
-    if (has_new_pair) RequireUnexpired("--tls-cert", certificate_, now.expires);
+    if (has_new_pair) RequireValid("--tls-cert", certificate_, now.expires);
     if (has_new_client_ca)
-      RequireUnexpired("--tls-client-ca", client_ca_source_, now.client_ca_expires);
+      RequireValid("--tls-client-ca", client_ca_source_, now.client_ca_expires);
     suspicion_.clear();
     const bool was_faulty = !std::exchange(fault_, "").empty();
-    if (!has_new_pair && !has_new_client_ca) return was_faulty ? std::optional(true) : std::nullopt;
+    if (!has_new_pair && !has_new_client_ca) {
+      if (!was_faulty) return std::nullopt;
+      spdlog::info("the TLS files are those in use again, the certificate until {}",
+                   Date(expires_));
+      return true;
+    }
     pair_.Replace(now.pair);
     client_ca_.Replace(now.client_ca);
     used_ = std::move(now);
@@ -76,6 +80,11 @@ std::optional<bool> CertificateFiles::Refresh() {
                   Date(expires_));
     return false;
   }
+}
+
+void CertificateFiles::RequireUnexpired() const {
+  RequireValid("--tls-cert", certificate_, expires_);
+  if (needs_client_ca_) RequireValid("--tls-client-ca", client_ca_source_, used_.client_ca_expires);
 }
 
 void CertificateFiles::LogExpiry() const {

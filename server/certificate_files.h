@@ -32,6 +32,8 @@ class CertificateFiles {
   int64_t expires() const { return expires_; }  ///< of the certificate; seconds since 1970
   /// When no client can be admitted any more; 0 if clients need no certificate.
   int64_t client_ca_expires() const { return used_.client_ca_expires; }
+  /// Throws Error(kInvalidArgument) for an expired file.
+  void RequireUnexpired() const;
   /// Logs until when each file is valid; a warning if it has expired.
   void LogExpiry() const;
 

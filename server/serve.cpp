@@ -126,7 +126,10 @@ void RequireAddresses(const ServerConfig& config) {
 void RequireSecrets(const ServerConfig& config) {
   if (!config.tls_certificate.empty()) {
     const CertificateFiles certificate(config);
-    if (config.check) certificate.LogExpiry();  // as the server itself does
+    if (config.check) {
+      certificate.LogExpiry();  // as the server itself does
+      certificate.RequireUnexpired();
+    }
   }
   const Tokens tokens(config.tokens);
 }

@@ -164,6 +164,7 @@ TEST_F(TlsTest, ARenewedCertificateIsShownWithoutARestart) {
 }
 
 TEST_F(TlsTest, ABadRenewalKeepsTheLastGoodPair) {
+  const LogCapture log;
   const Certificate own = authority_.Issue("own");
   ServerConfig config;
   Serve(own, config);
@@ -197,6 +198,11 @@ TEST_F(TlsTest, ABadRenewalKeepsTheLastGoodPair) {
   files.Refresh();
   EXPECT_EQ(files.Refresh(), false) << "it has expired";
   EXPECT_EQ(content(), after);
+  replace(renewed.certificate, own.certificate);
+  replace(renewed.key, own.key);
+  EXPECT_EQ(files.Refresh(), true);
+  EXPECT_THAT(log.text(),
+              HasSubstr("[info] the TLS files are those in use again, the certificate until 20"));
 }
 
 TEST_F(TlsTest, AnExpiredCertificateIsTold) {

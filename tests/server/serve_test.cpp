@@ -18,6 +18,7 @@
 #include "client/choreo_client.h"
 #include "server/listener.h"
 #include "tests/server/fixture.h"
+#include "tests/support/certificates.h"
 #include "tests/support/expect_error.h"
 #include "tests/support/shell.h"
 #include "tests/support/temporary_folder.h"
@@ -202,6 +203,22 @@ TEST_F(ServeTest, AFileIsCheckedBeforeARestart) {
   const Outcome empty = check();
   EXPECT_EQ(empty.code, 2) << empty.said;
   EXPECT_THAT(empty.said, HasSubstr("--models: " + models));
+}
+
+// A server that runs would refuse it, too.
+TEST_F(ServeTest, AnExpiredFileFailsTheCheck) {
+  const Authority authority(folder_.path(), "authority");
+  const Certificate own = authority.Issue("own"), late = authority.IssueExpired("late");
+  const auto check = [](const Certificate& shown, const std::filesystem::path& client_ca) {
+    return Shell(FAKE_CHOREOD " --check --tls-cert '" + shown.certificate.string() +
+                 "' --tls-key '" + shown.key.string() + "' --tls-client-ca '" + client_ca.string() +
+                 "'");
+  };
+  EXPECT_EQ(check(own, authority.certificate()).code, 0);
+  for (const Outcome& bad : {check(late, authority.certificate()), check(own, late.certificate)}) {
+    EXPECT_EQ(bad.code, 2) << bad.said;
+    EXPECT_THAT(bad.said, HasSubstr(late.certificate.string() + " expired on 20"));
+  }
 }
 
 TEST_F(ServeTest, ABadFolderOfModelsIsMisuse) {
