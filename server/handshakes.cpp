@@ -28,6 +28,7 @@ constexpr std::pair<std::string_view, size_t> kReasons[] = {
     {"http request", 3},
     {"unsupported protocol", 4},
     {"version too low", 4},
+    {"Handshake timed out", 5},
 };
 
 std::array<std::atomic<uint64_t>, kHandshakeFaults.size()> fault_counts;
@@ -35,7 +36,9 @@ std::array<std::atomic<uint64_t>, kHandshakeFaults.size()> fault_counts;
 }  // namespace
 
 void CountHandshakeFault(std::string_view line) {
-  if (line.find("Handshake failed") == std::string_view::npos) return;
+  if (line.find("Handshake failed") == std::string_view::npos &&
+      line.find("Handshake timed out") == std::string_view::npos)
+    return;
   const auto* reason = std::ranges::find_if(
       kReasons, [line](const auto& one) { return line.find(one.first) != std::string_view::npos; });
   ++fault_counts[reason == std::end(kReasons) ? fault_counts.size() - 1 : reason->second];

@@ -18,6 +18,7 @@ inline constexpr std::array kHandshakeFaults = {
     "server_certificate_refused",
     "not_tls",
     "old_version",
+    "timed_out",
     "other",
 };
 using HandshakeFaults = std::array<uint64_t, kHandshakeFaults.size()>;
@@ -34,7 +35,7 @@ class HandshakeWatch {
  public:
   /// A new connection.
   void Accepted(int connection);
-  /// A call of this peer, in gRPC's form.
+  /// A call of this peer, in the form of PeerOf.
   void Began(const std::string& peer);
   /// Logs what has failed since the last time. Call regularly.
   void Look();

@@ -333,7 +333,11 @@ TEST_F(TlsTest, FailedHandshakesAreCountedAndTheirPeersNamed) {
               " </dev/null",
           2);
   attempt(health, 3);
-  ExpectEventually([&] { return log.text().find("not_tls; likely of") != std::string::npos; },
+  // It says nothing until the server hangs up.
+  std::string silent = server->address();
+  silent.replace(silent.rfind(':'), 1, "/");
+  attempt("bash -c 'cat < /dev/tcp/" + silent + "; exit 1'", 5);
+  ExpectEventually([&] { return log.text().find("timed_out; likely of") != std::string::npos; },
                    "the last is logged");
   EXPECT_THAT(log.text(), testing::ContainsRegex("\\[warning\\] TLS handshakes failed: [0-9]+ "
                                                  "no_client_certificate.*; likely of "
