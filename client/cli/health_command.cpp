@@ -14,7 +14,8 @@ void Run(const ServerOptions& server, bool any_certificate) {
   options.token_file.clear();  // health needs none
   options.any_certificate = any_certificate;
   if (!client::Client(options).IsServing()) {
-    throw Error(ErrorCode::kUnavailable, options.addresses.front(), "does not serve, or no more");
+    throw Error(ErrorCode::kUnavailable, options.addresses.front(),
+                "does not serve: it drains, or the engine of a model fails");
   }
   std::cout << "serving" << std::endl;
 }

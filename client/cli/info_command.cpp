@@ -199,7 +199,8 @@ void Run(const InfoOptions& options) {
   const Connection connection(options.server);
   PrintServer(connection.server(), options);
   if (!MayServe(connection.client()))
-    std::cerr << "note: the server does not serve, or no more: it takes no new dances\n";
+    std::cerr << "note: the server does not serve: it drains and takes no new dances, or the "
+                 "engine of a model fails\n";
 }
 
 }  // namespace

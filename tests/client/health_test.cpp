@@ -22,12 +22,13 @@ TEST_F(HealthTest, ServesUntilItDrains) {
   while (client.IsServing()) std::this_thread::yield();
   const Outcome draining = Choreo("health" + Server());
   EXPECT_EQ(draining.code, 1);
-  EXPECT_THAT(draining.said, testing::HasSubstr(server_.address() + ": does not serve"));
+  EXPECT_THAT(draining.said,
+              testing::HasSubstr(server_.address() + ": does not serve: it drains, or"));
   // Its description is still available.
   const Outcome seen = Choreo("info" + Server());
   EXPECT_EQ(seen.code, 0) << seen.said;
   EXPECT_THAT(seen.said, testing::HasSubstr("1 calls in progress"));
-  EXPECT_THAT(seen.said, testing::HasSubstr("note: the server does not serve, or no more"));
+  EXPECT_THAT(seen.said, testing::HasSubstr("note: the server does not serve: it drains"));
   dance->Cancel();
   drain.join();
 
