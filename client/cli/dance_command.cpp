@@ -187,7 +187,8 @@ void AddDanceCommand(CLI::App& program) {
   command->add_option("--report", options->report, "JSON file to write the report to.");
   options->bvh.AddTo(*command);
   AddVmc(*command, options->vmc);
-  command->get_option("--vmc")->excludes("--dancers");
+  CLI::Option* vmc = command->get_option("--vmc")->excludes("--dancers");
+  vmc->description(vmc->get_description() + " The file of --out is written, too.");
   command->add_flag("--no-clobber", options->no_clobber, "Replace no motion file that is there.");
   options->server.AddInexactResume(*command);
   options->server.AddTo(*command);

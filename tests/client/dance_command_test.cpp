@@ -68,6 +68,10 @@ TEST_F(CommandTest, DancesThroughTheLibraryAndWritesBesideTheSong) {
   }
 }
 
+TEST_F(CommandTest, HelpSaysThatAShownDanceIsWrittenToo) {
+  EXPECT_THAT(Choreo("dance --help").said, HasSubstr("The file of --out is written, too."));
+}
+
 TEST_F(CommandTest, SaysWhichKeysFallBetweenTheFramesOfTheFile) {
   WriteClicks(folder_ / "song.wav", 4);
   Motion walk{.fps = 30, .frames = std::vector<Pose>(90, RestPose(Body()))};
