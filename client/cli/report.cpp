@@ -243,7 +243,7 @@ std::string ReportText(const WrittenDance& dance) {
   }
   text += Format("skating in %.1f %% of the steps", 100 * report.skate_ratio);
   if (report.support)
-    text += Format(", on her feet in %.0f %% of the frames", 100 * *report.support);
+    text += Format(", balanced over her feet in %.0f %% of the frames", 100 * *report.support);
   text += '\n';
   if (!report.part_speeds.empty()) {
     text += "speeds danced (and asked), cm a frame:";
