@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <cstdlib>
 #include <iostream>
 #include <map>
 #include <memory>
@@ -20,6 +21,17 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 constexpr std::chrono::seconds kOfOneLoss{5};
+constexpr const char* kServerVariable = "CHOREO_SERVER";
+
+/// Says where the address of a server that is not there comes from.
+Error Explained(const Error& error, const std::vector<std::string>& addresses) {
+  const char* variable = std::getenv(kServerVariable);
+  if (error.code() != ErrorCode::kUnavailable || variable == nullptr) return error;
+  if (std::ranges::find(addresses, variable) == addresses.end()) return error;
+  return {error.code(), "",
+          std::string(error.what()) + "; " + kServerVariable +
+              " names it: start one there (choreo serve), or unset " + kServerVariable};
+}
 
 }  // namespace
 
@@ -28,7 +40,7 @@ void ServerOptions::AddTo(CLI::App& command) {
               "HOST:PORT of a choreod. May be given more than once: several are replicas that "
               "stand in for each other. Without it, one is started on this machine for as long as "
               "it is needed.")
-      ->envname("CHOREO_SERVER");
+      ->envname(kServerVariable);
   command.add_flag("--tls", tls, "Encrypt the connection.")->envname("CHOREO_TLS");
   command
       .add_option("--ca", ca_certificate,
@@ -121,7 +133,11 @@ Connection::Connection(const ServerOptions& options, const std::optional<std::st
     failures->Take(address, failure);
   };
   client_ = std::make_unique<client::Client>(client_options);
-  server_ = client_->GetServerInfo();
+  try {
+    server_ = client_->GetServerInfo();
+  } catch (const Error& error) {
+    throw Explained(error, options.addresses);
+  }
   failures_->reached = true;
 }
 

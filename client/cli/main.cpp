@@ -1,9 +1,11 @@
 #include <grpc/support/log.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <exception>
 #include <iostream>
 #include <string>
+#include <vector>
 
 #include "client/cli/commands.h"
 #include "client/cli/interruption.h"
@@ -15,6 +17,17 @@
 namespace {
 
 constexpr int kInterrupted = 130;  // shells' code for Ctrl-C
+
+/// The arguments behind the program, last first: `choreo help dance` is `choreo dance --help`.
+std::vector<std::string> ArgumentsOf(int argc, char** argv) {
+  std::vector<std::string> arguments(argv + 1, argv + argc);
+  if (!arguments.empty() && arguments.front() == "help") {
+    arguments.erase(arguments.begin());
+    arguments.emplace_back("--help");
+  }
+  std::ranges::reverse(arguments);
+  return arguments;
+}
 
 int Fail(const std::exception& error) {
   if (choreo::cli::Interruption::Came()) return kInterrupted;
@@ -50,7 +63,7 @@ int main(int argc, char** argv) {
   choreo::cli::AddRenderCommand(program);
   choreo::cli::AddStudioCommand(program);
   try {
-    program.parse(argc, argv);
+    program.parse(ArgumentsOf(argc, argv));
     return 0;
   } catch (const CLI::ParseError& error) {
     // Help and version end here, too, with code 0.

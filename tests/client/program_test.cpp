@@ -1,0 +1,31 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/client/run_choreo.h"
+
+/// `choreo` before it has a server.
+namespace choreo::program_test {
+
+using testing::HasSubstr;
+using testing::Not;
+
+TEST(Program, HelpIsACommandToo) {
+  for (const auto& [written, meant] :
+       {std::pair("help dance", "dance --help"), {"help", "--help"}}) {
+    const Outcome outcome = Choreo(written);
+    EXPECT_EQ(outcome.code, 0);
+    EXPECT_EQ(outcome.said, Choreo(meant).said);
+  }
+}
+
+TEST(Program, NamesTheVariableOfAServerThatIsNotThere) {
+  const std::string variable = "CHOREO_SERVER names it: start one there (choreo serve), or unset";
+  const Outcome outcome = Choreo("info --deadline 0.3", "CHOREO_SERVER=127.0.0.1:1 ");
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_THAT(outcome.said, HasSubstr("127.0.0.1:1: no server is reached"));
+  EXPECT_THAT(outcome.said, HasSubstr(variable));
+  EXPECT_THAT(Choreo("info --deadline 0.3 --server 127.0.0.1:1").said,
+              Not(HasSubstr("CHOREO_SERVER")));
+}
+
+}  // namespace choreo::program_test
