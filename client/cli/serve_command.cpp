@@ -1,5 +1,6 @@
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <string>
@@ -14,6 +15,13 @@ namespace {
 
 /// Becomes choreod, which then handles signals, output and exit code.
 void Run(std::vector<std::string> options) {
+  const auto is_port = [](const std::string& option) {
+    return option == "--port" || option.starts_with("--port=");
+  };
+  if (std::ranges::any_of(options, is_port)) {
+    throw InvalidArgument("--port",
+                          "is part of --listen HOST:PORT, as in --listen 127.0.0.1:50051");
+  }
   const std::string program = authoring::LocalServer::Program().string();
   std::vector<char*> arguments = {const_cast<char*>("choreod")};
   for (std::string& option : options) arguments.push_back(option.data());

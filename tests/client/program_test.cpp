@@ -18,6 +18,14 @@ TEST(Program, HelpIsACommandToo) {
   }
 }
 
+TEST(Program, ServesAtAnAddress) {
+  for (const char* port : {"--port 1", "--port=1"}) {
+    const Outcome outcome = Choreo(std::string("serve ") + port);
+    EXPECT_EQ(outcome.code, 1);
+    EXPECT_THAT(outcome.said, HasSubstr("--port: is part of --listen HOST:PORT"));
+  }
+}
+
 TEST(Program, NamesTheVariableOfAServerThatIsNotThere) {
   const std::string variable = "CHOREO_SERVER names it: start one there (choreo serve), or unset";
   const Outcome outcome = Choreo("info --deadline 0.3", "CHOREO_SERVER=127.0.0.1:1 ");
