@@ -15,6 +15,7 @@
 #include "client/cli/options.h"
 #include "client/cli/output_file.h"
 #include "client/cli/report.h"
+#include "client/cli/report_keys.h"
 #include "model/core/error.h"
 #include "model/core/joined.h"
 #include "model/core/progress.h"
@@ -44,14 +45,20 @@ struct RenderOptions {
   VideoOptions film;
 };
 
-/// The seconds of the keys in a dance's report.
-std::vector<double> KeyTimes(const std::string& path) {
-  std::vector<double> times;
-  if (path.empty()) return times;
+/// A key in a dance's report.
+struct ReportedKey {
+  double seconds = 0;
+  bool holds = false;  ///< it only holds the pose of one before
+};
+
+std::vector<ReportedKey> ReportedKeys(const std::string& path) {
+  std::vector<ReportedKey> keys;
+  if (path.empty()) return keys;
   const auto report = ReadReport(path);
   for (const auto& key : report["keyframes"])
-    times.push_back(key.at("frame").get<double>() / report["fps"].get<double>());
-  return times;
+    keys.push_back(
+        {key.at("frame").get<double>() / report["fps"].get<double>(), HoldsAnother(key)});
+  return keys;
 }
 
 /// Fills in the song and its start from the report, and says so. `says_start`: whether the command
@@ -89,7 +96,7 @@ authoring::Counts CountsFor(const RenderOptions& options) {
 }
 
 /// Keeps what lies between --from and --until, with the keys and the song there.
-void Cut(RenderOptions* options, Stage* stage, std::vector<double>* keys) {
+void Cut(RenderOptions* options, Stage* stage, std::vector<ReportedKey>* keys) {
   if (options->from.empty() && options->until.empty()) return;
   const authoring::Counts counts = CountsFor(*options);
   const auto second = [&](const char* option, const std::string& time) {
@@ -120,8 +127,10 @@ void Cut(RenderOptions* options, Stage* stage, std::vector<double>* keys) {
   }
   const double first_s = static_cast<double>(first) / fps;
   const double end_s = static_cast<double>(end) / fps;
-  std::erase_if(*keys, [&](double key) { return key < first_s - kOnFrame || key >= end_s; });
-  for (double& key : *keys) key -= first_s;
+  std::erase_if(*keys, [&](const ReportedKey& key) {
+    return key.seconds < first_s - kOnFrame || key.seconds >= end_s;
+  });
+  for (ReportedKey& key : *keys) key.seconds -= first_s;
   options->sheet.first_s = first_s;
   if (!options->song.empty()) options->film.format.song_start_s += first_s;
 }
@@ -136,9 +145,11 @@ Stage ReadStage(const std::vector<std::string>& paths) {
   return stage;
 }
 
-void DrawSheet(const RenderOptions& options, const Stage& stage, const std::vector<double>& keys) {
+void DrawSheet(const RenderOptions& options, const Stage& stage,
+               const std::vector<ReportedKey>& keys) {
   ContactSheetOptions sheet = options.sheet;
-  for (const double seconds : keys) {
+  for (const auto& [seconds, holds] : keys) {
+    if (holds) continue;  // one pose is one key
     const int64_t frame = std::llround(seconds * stage.front().motion.fps);
     if (frame < CountFrames(stage)) sheet.key_frames.push_back(frame);
   }
@@ -151,10 +162,11 @@ void DrawSheet(const RenderOptions& options, const Stage& stage, const std::vect
   DrawContactSheet(stage, sheet, options.out);
 }
 
-void DrawFilm(const RenderOptions& options, const Stage& stage, std::vector<double> keys) {
+void DrawFilm(const RenderOptions& options, const Stage& stage,
+              const std::vector<ReportedKey>& keys) {
   VideoOptions film = options.film;
   film.format.song = options.song;
-  film.keys = std::move(keys);
+  for (const ReportedKey& key : keys) film.keys.push_back(key.seconds);
   char end = 0;
   if (std::sscanf(options.size.c_str(), "%5dx%5d%c", &film.format.width, &film.format.height,
                   &end) != 2) {
@@ -189,7 +201,7 @@ void Run(RenderOptions options) {
   // Of several, the report is that of one.
   if (!options.report.empty() && stage.size() == 1)
     CheckSketch(options.report, ReadReport(options.report), stage.front().motion);
-  std::vector<double> keys = KeyTimes(options.report);
+  std::vector<ReportedKey> keys = ReportedKeys(options.report);
   Cut(&options, &stage, &keys);
   if (!options.out.empty()) DrawSheet(options, stage, keys);
   Interruption::Check();
