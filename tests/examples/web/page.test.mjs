@@ -11,6 +11,7 @@ import { createInterface } from 'node:readline';
 import { test } from 'node:test';
 import { fileURLToPath } from 'node:url';
 import { Character, gltfBones } from '../../../client/node/character/index.js';
+import { song, wav } from '../../../examples/node/music.js';
 import { withServer } from '../servers.mjs';
 
 const { chromium } = createRequire(new URL('../../../studio/page/package.json', import.meta.url))('playwright-core');
@@ -155,12 +156,18 @@ async function freePort() {
   return port;
 }
 
-test('what docs/web.md says works, from nothing', () =>
+const root = fileURLToPath(new URL('../../../', import.meta.url));
+const text = await readFile(join(root, 'docs/web.md'), 'utf8');
+const [html] = fences('html');
+const [backEnd, withMusic] = fences('js');
+
+function fences(language) {
+  return [...text.matchAll(new RegExp(`^\`\`\`${language}\\n([^]*?)^\`\`\``, 'gm'))].map(([, inside]) => inside);
+}
+
+/** Uses the page of a back end, `listens` on port 8080, in a folder of its own with `files`: `use(page, what its console says)`. */
+const withSample = ({ html, backEnd, files = {} }, use) =>
   withServer([], async ({ address }) => {
-    const root = fileURLToPath(new URL('../../../', import.meta.url));
-    const text = await readFile(join(root, 'docs/web.md'), 'utf8');
-    const [, html] = /^```html\n([^]*?)^```/m.exec(text);
-    const [, backEnd] = /^```js\n([^]*?)^```/m.exec(text);
     const folder = await mkdtemp(join(tmpdir(), 'choreo-'));
     const port = await freePort();
     let program, browser;
@@ -171,6 +178,7 @@ test('what docs/web.md says works, from nothing', () =>
       await cp(join(pictures, 'mixamo.glb'), join(folder, 'hero.glb'));
       await writeFile(join(folder, 'package.json'), '{ "type": "module" }');
       await writeFile(join(folder, 'index.html'), html);
+      for (const [name, content] of Object.entries(files)) await writeFile(join(folder, name), content);
       await writeFile(join(folder, 'serve.js'), backEnd.replace('127.0.0.1:50051', address).replace('8080', port));
       program = spawn(process.execPath, ['serve.js'], { cwd: folder, stdio: ['ignore', 'inherit', 'inherit'] });
       browser = await launch();
@@ -180,14 +188,46 @@ test('what docs/web.md says works, from nothing', () =>
       page.on('pageerror', (error) => said.push(error.message));
       page.on('console', (message) => said.push(message.text()));
       for (let tries = 0; tries < 100; ++tries) if (await page.goto(`http://127.0.0.1:${port}`).catch(() => page.waitForTimeout(100))) break;
-      await moves(page, 'canvas');
-      await page.getByText('Kick').click();
-      for (let tries = 0; tries < 300 && !said.includes('key 1 reached'); ++tries) await page.waitForTimeout(100);
-      assert.deepEqual(said.filter((text) => !/GPU stall|favicon|404/.test(text)), ['key 1 reached']);
-      await page.screenshot({ path: join(pictures, 'from_nothing.png') });
+      await use(page, said);
     } finally {
       await browser?.close();
       program?.kill('SIGKILL');
       await rm(folder, { recursive: true });
     }
+  });
+
+async function kicks(page, said) {
+  await page.getByText('Kick').click();
+  for (let tries = 0; tries < 300 && !said.includes('key 1 reached'); ++tries) await page.waitForTimeout(100);
+  assert.deepEqual(said.filter((text) => !/GPU stall|favicon|404/.test(text)), ['key 1 reached']);
+}
+
+test('what docs/web.md says works, from nothing', () =>
+  withSample({ html, backEnd }, async (page, said) => {
+    await moves(page, 'canvas');
+    await kicks(page, said);
+    await page.screenshot({ path: join(pictures, 'from_nothing.png') });
   }));
+
+test('what docs/web.md says of music works', () => {
+  const [set, ask] = withMusic.split('// in createServer: ');
+  const alone = 'if (await dance(request, response)) return;';
+  const changed = backEnd.replace('createServer(async', `${set}createServer(async`).replace(alone, ask).replace('audio/mpeg', 'audio/wav');
+  let musical = html;
+  let added = [];
+  for (const line of fences('diff')[0].trimEnd().split('\n')) {
+    if (line[0] === '+') added.push(line.slice(1));
+    else {
+      const at = musical.indexOf(line.slice(1));
+      assert.ok(at >= 0, line);
+      musical = musical.replace(line.slice(1), '@@');
+    }
+    if (line[0] === '+' && musical.includes('@@')) musical = musical.replace('@@', added.splice(0).join('\n'));
+  }
+  return withSample({ html: musical, backEnd: changed, files: { 'song.mp3': wav(song(60)) } }, async (page, said) => {
+    await page.waitForFunction(() => document.querySelector('button').onclick);
+    await page.getByText('Kick').click(); // begins
+    await moves(page, 'canvas');
+    assert.deepEqual(said.filter((text) => !/GPU stall|favicon|404/.test(text)), []);
+  });
+});
