@@ -13,27 +13,30 @@ namespace choreo::client {
 /// for a part that is empty or not in the dance.
 FinishedDance PartOf(const FinishedDance& dance, int64_t first, int64_t end);
 
-/// The same dance with left and right swapped, in the plane x = 0 (motion/mirror.h). Throws
+/// Swaps left and right: mirrors a dance in the plane x = 0 (motion/mirror.h). Throws
 /// Error(kInvalidArgument) for a skeleton without paired joints.
 FinishedDance Mirrored(const Skeleton& skeleton, const FinishedDance& dance);
 
-/// A dance at another rate (motion/resample.h).
+/// Resamples a dance to another frame rate (motion/resample.h).
 FinishedDance AtRate(FinishedDance dance, double fps);
 
-/// Moves a motion: its place relative to `to` becomes that relative to `from`.
+/// Moves and turns a motion rigidly. Afterwards it is placed relative to `to` as it was relative to
+/// `from`.
 Motion Moved(Motion motion, const GroundFrame& from, const GroundFrame& to);
 
-/// A dance moved and turned so that its first frame has the position and facing of `pose`.
+/// Moves and turns a dance so that its first frame has the position and facing of `pose`.
 FinishedDance BegunAt(const Pose& pose, FinishedDance dance);
 
-/// Whether a dance begins in this pose and place, to the accuracy of keys.
+/// Whether a dance begins in this pose and place, within the tolerance of keys (kMaxKeyError_m and
+/// kMaxKeyError_deg).
 bool BeginsIn(const Skeleton& skeleton, const FinishedDance& dance, const Pose& pose);
 
-/// Joins two dances of the same rate, unchanged.
+/// Appends `second`, unchanged, to `first`. Both must have the same rate.
 FinishedDance Join(FinishedDance first, const FinishedDance& second);
 
-/// Joins them with `gap` frames of the model, at least kMinKeyDistance, between the last frame of
-/// one and the first of the other, which are danced. Fails like DanceAnew.
+/// Appends `second` to `first` with a generated transition. `gap`: the distance from the last frame
+/// of `first` to the first frame of `second`, in frames of the model, at least kMinKeyDistance.
+/// Throws as DanceAnew does.
 EditedDance Join(const Client& client, FinishedDance first, const FinishedDance& second,
                  const EditOptions& options, int64_t gap);
 

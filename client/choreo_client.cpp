@@ -106,7 +106,7 @@ class TransitionCollector {
   bool complete_ = false;
 };
 
-/// Sorts the messages of a dance into its result.
+/// Collects the messages of a dance in its result.
 struct DanceCollector {
   DanceResult* result;
 
@@ -250,7 +250,7 @@ void Client::Dance(DanceConfig config, const std::vector<KeyPose>& keys, const A
                    const std::function<void(const Message&)>& observer, DanceResult* result) const {
   config.audio = audio.format;
   const std::unique_ptr<RemoteDance> dance = StartDance(config);
-  // Keys first: the first frames then need little of the music, and no key can come late.
+  // Sends the keys first: no key can then come late, and the first frames need little of the music.
   for (const KeyPose& key : keys) dance->SendKey(key);
   dance->CompleteKeys();
   if (audio.format.kind == AudioKind::kPcmFloat) dance->SendSamples(audio.samples);

@@ -19,15 +19,15 @@
 #include "model/motion/motion.h"
 #include "model/motion/velocity_factors.h"
 
-/// The client of a choreod, in plain C++ without protobuf or gRPC types.
+/// A client for choreod, in plain C++ without protobuf or gRPC types.
 ///
-/// Conventions are those of model/motion/: right-handed, Y up, metres, radians, seconds; rotations
-/// are axis-angle, local to the parent. Frames are numbered from the start of the music, at the
-/// model's rate except FrameBlock::first_frame. Every failure is a choreo::Error with the server's
-/// message, which names field, value and limit.
+/// Conventions are those of model/motion/: right-handed, Y up, metres, radians, seconds. Rotations
+/// are axis-angle vectors, local to the parent. Frames are numbered from the start of the music, at
+/// the model's rate except FrameBlock::first_frame. Every failure is a choreo::Error with the
+/// server's message, which names the field, the value and the limit.
 namespace choreo::client {
 
-/// Which servers to call, and how patiently.
+/// Servers, credentials, timeouts and retries of a Client.
 struct Options {
   /// HOST:PORT or unix:PATH. Several are replicas: if one fails, or has another fingerprint than
   /// the dance, the next is tried. Calls take turns at the addresses of one name, and skip those
@@ -36,8 +36,8 @@ struct Options {
   bool tls = false;
   /// PEM file of the authority to trust, with `tls`; empty: the system's.
   std::filesystem::path ca_certificate = {};
-  /// With `tls`: accepts any certificate, even an expired one, to ask only whether a server lives.
-  /// Excludes `token_file`, because anybody may answer.
+  /// With `tls`: accepts any certificate, even an expired one. Meant for health checks alone.
+  /// Excludes `token_file`, because an impostor may answer.
   bool any_certificate = false;
   /// PEM files of a certificate and its key, with `tls`, if the server requires one.
   std::filesystem::path client_certificate = {}, client_key = {};
@@ -47,67 +47,70 @@ struct Options {
   /// Requires `tls`, unless all addresses are on this machine.
   std::filesystem::path token_file = {};
   double connect_timeout_s = 5;  ///< per attempt at one address
-  /// A server that is silent for this long during a call, even to pings, counts as lost, seconds;
-  /// at least kMinSilence, or 0: never. Dances may pause longer.
+  /// Seconds after which a server that sends nothing during a call, not even answers to pings,
+  /// counts as lost. At least kMinSilence; 0: never. Dances may pause longer.
   double silence_s = 5;
   double deadline_s = 0;  ///< for a call, from its first attempt to its last frame; 0: none
-  /// How long to keep retrying, at one address or all of them, since a call last made progress,
-  /// seconds. A time, not a count, because servers take time to come back. 0: no retries, so no
-  /// resume either.
+  /// Seconds for which to keep retrying, at one address or all of them, since a call last made
+  /// progress. This is a time, not a count, because servers take time to come back. 0: no retries,
+  /// so no resumption either.
   double retry_s = 10;
   double first_backoff_s = 0.1;  ///< between attempts; doubled each time, up to 2 s
-  /// Resumes on a server with another fingerprint if no other is left. The dance then continues
-  /// differently: smoothly or, before the first continuation, with that server's own frames.
-  /// `Resumed` reports it.
+  /// Resumes on a server with another fingerprint if no server with the same one is left. The dance
+  /// then continues differently: smoothly or, before the first continuation, with that server's own
+  /// frames. `Resumed` reports it.
   bool allow_inexact_resume = false;
   /// Also calls servers that accept no new dances, to inspect them.
   bool even_draining = false;
-  /// Called on a call's thread before each retry. Throws to end the call, if the caller knows that
-  /// retrying is useless. May be empty.
+  /// Called before each retry, on the call's thread. It may throw to end the call if the caller
+  /// knows that retrying is useless. May be empty.
   std::function<void()> before_retry = {};
-  /// Told of each failure that is retried, after `before_retry`: whose it was, and what it was. May
-  /// be empty.
+  /// Called for each failure that is retried, after `before_retry`, with the address of the server
+  /// that failed. May be empty.
   std::function<void(const std::string& address, const Error& failure)> retried = {};
 };
 
-/// A dance in progress: send requests while its frames arrive. When its server is lost, it resumes
-/// on the next one from the last continuation, frame for frame as if nothing had happened.
+/// A dance in progress, to which requests are sent while its frames arrive. If its server is lost,
+/// the dance resumes on the next one from the last continuation, with exactly the frames of an
+/// uninterrupted dance.
 ///
-/// One thread may call Next while others call the rest. Only Next blocks: requests wait in memory.
+/// One thread may call Next while others call the other functions. Only Next blocks: requests are
+/// queued in memory.
 class RemoteDance {
  public:
-  ~RemoteDance();  ///< Cancel()s a dance that has not ended
+  ~RemoteDance();  ///< cancels a dance that has not ended
   RemoteDance(const RemoteDance&) = delete;
   RemoteDance& operator=(const RemoteDance&) = delete;
 
-  /// The next interleaved samples of a kPcmFloat dance.
+  /// Sends the next interleaved samples of a kPcmFloat dance.
   void SendSamples(std::span<const float> interleaved);
-  /// The next bytes of a kFile dance.
+  /// Sends the next bytes of a kFile dance.
   void SendBytes(std::span<const std::byte> bytes);
   void EndAudio();
   void SendKey(const KeyPose& key);
   void RemoveKey(const std::string& id);
-  /// Each replaces the earlier one of its kind (velocity factors: for the named parts) from the
-  /// first unfrozen frame: that of the last GenerateUntil or, without, the one after the last key.
-  /// Must come before CompleteKeys.
+  /// Sends controls. Each replaces the earlier one of its kind (velocity factors: only those of the
+  /// named parts) from the first unfrozen frame: the frame of the last GenerateUntil or, without
+  /// one, the frame after the last key. Call before CompleteKeys.
   void SendControls(const ControlRequest& controls);
-  /// Frames before `frame` are final and come; later keys may still change. To edit keys, also set
-  /// DanceConfig::generate_until: until this is called each key grants the frames up to itself.
+  /// Lets the server generate the frames before `frame`, which are final. Later keys may still
+  /// change. Until the first call, each key permits the frames up to itself; to edit keys, prevent
+  /// that by setting DanceConfig::generate_until.
   void GenerateUntil(int64_t frame);
-  /// Beats ahead, seconds, strictly ascending, at least one: from the first on they replace known
-  /// ones, for transitions that begin after the frozen frames. `downbeats`: those that begin a bar.
-  /// `confidence`, 0 to 1: of a client that predicts them from the music it sends; such beats are
-  /// not reported in silence. Must come before CompleteKeys.
+  /// Sends beats ahead: at least one, seconds, strictly ascending. From the first one on they
+  /// replace known beats, for transitions that begin after the frozen frames. `downbeats`: those
+  /// that begin a bar. `confidence`, 0 to 1: set it if the client predicts the beats from the music
+  /// that it sends; such beats are not reported in silence. Call before CompleteKeys.
   void SendBeats(std::span<const double> seconds, std::span<const double> downbeats = {},
                  std::optional<double> confidence = {});
-  /// Passages ahead, ascending, at least one: from the first on they replace known ones, for
-  /// transitions that begin after the frozen frames. Must come before CompleteKeys.
+  /// Sends passages ahead: at least one, ascending. From the first one on they replace known
+  /// passages, for transitions that begin after the frozen frames. Call before CompleteKeys.
   void SendPassages(std::span<const Passage> passages);
-  /// Says that no more keys will come, so that the rest may be made.
+  /// States that no more keys follow, so that the server may generate the rest of the dance.
   void CompleteKeys();
 
-  /// The next message; blocks. Returns nullopt after Report. Throws Error if the dance failed for
-  /// good.
+  /// Waits for the next message. Returns nullopt after Report. Throws Error if the dance failed and
+  /// cannot be resumed.
   std::optional<Message> Next();
   /// Ends the dance; a concurrent Next throws Error(kCancelled). Idempotent.
   void Cancel() noexcept;
@@ -140,11 +143,11 @@ struct TransitionRequest {
   std::optional<Pose> target = {};  ///< at the last frame
   PoseMask target_mask = {};
   std::optional<double> target_hit = {};  ///< KeyPose::hit; with `after` only on the way there
-  std::string target_id = {};             ///< its name in warnings and the report; empty: "target"
+  std::string target_id = {};  ///< the target's name in warnings and the report; empty: "target"
   Audio audio = {};
   int64_t audio_first_sample =
-      0;  ///< number of its first sample, counted from the start of the music
-  std::vector<Pose> after = {};  ///< frames that follow, at most 60
+      0;  ///< number of the first sample in `audio`, counted from the start of the music
+  std::vector<Pose> after = {};  ///< frames that follow the transition, at most 60
   int candidates = 1;            ///< 1 to kMaxCandidates
   RankBy rank_by = RankBy::kQuality;
 };
@@ -176,14 +179,15 @@ class Client {
   /// Whether the server is healthy: false while it drains.
   bool IsServing() const;
 
-  /// Starts a dance that is steered while it runs.
+  /// Starts a dance that can be steered while it runs.
   std::unique_ptr<RemoteDance> StartDance(const DanceConfig& config) const;
 
-  /// A whole dance to known music through known keys. `config.audio` is taken from `audio`. Calls
-  /// `observer`, if any, with each message.
+  /// Generates a whole dance to known music through known keys. Takes `config.audio` from `audio`.
+  /// Calls `observer`, if any, with each message.
   DanceResult Dance(DanceConfig config, const std::vector<KeyPose>& keys, const Audio& audio,
                     const std::function<void(const Message&)>& observer = {}) const;
-  /// The same into `result`, which keeps the received frames if the dance fails.
+  /// Generates a whole dance, as above, into `result`, which keeps the received frames if the dance
+  /// fails.
   void Dance(DanceConfig config, const std::vector<KeyPose>& keys, const Audio& audio,
              const std::function<void(const Message&)>& observer, DanceResult* result) const;
 

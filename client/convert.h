@@ -6,8 +6,8 @@
 #include "client/choreo_client.h"
 #include "proto/wire/convert.h"
 
-/// Between the public structs and the messages of choreo.v1, both ways. What comes in is checked: a
-/// server that breaks the protocol raises Error(kInternal).
+/// Converts between the public structs and the messages of choreo.v1. Checks received messages:
+/// throws Error(kInternal) if a server breaks the protocol.
 namespace choreo::client {
 
 using wire::FromProto, wire::ToProto;
@@ -15,10 +15,10 @@ using wire::FromProto, wire::ToProto;
 v1::DanceConfig ToProto(const DanceConfig& config);
 v1::Keyframe ToProto(const KeyPose& key);
 
-/// Bytes of little-endian floats.
+/// Returns the samples as the bytes of little-endian floats.
 std::string ToPcmBytes(std::span<const float> samples);
 
-/// `joints`: of the header's skeleton.
+/// `joints`: the number of joints in the header's skeleton.
 FrameBlock FromProto(const v1::Frames& frames, int joints);
 Continuation FromProto(const v1::Continuation& continuation);
 Report FromProto(const v1::QualityReport& report, const v1::Timing& timing);

@@ -32,34 +32,34 @@ struct AudioFormat {
   int channels = 0;     ///< of kPcmFloat, 1 to 8
 };
 
-/// Music, whole.
+/// A whole piece of music.
 struct Audio {
   AudioFormat format = {};
   std::vector<float> samples = {};    ///< of kPcmFloat, interleaved
   std::vector<std::byte> bytes = {};  ///< of kFile
 };
 
-/// A pose to be hit.
+/// A pose for the dance to reach.
 struct KeyPose {
-  std::string id = {};                ///< unique; sent again, it replaces the key
+  std::string id = {};                ///< unique; a key sent again with the same id is replaced
   std::optional<int64_t> frame = {};  ///< at the model's rate; or else:
   double time_s = 0;                  ///< rounded to the nearest frame
   Pose pose = {};
   PoseMask mask = {};
-  /// How hard it is hit, 0 (gently) to kMaxHit (late and fast), to rest in it. None: the dance
-  /// passes through it.
+  /// How hard the dancer hits the pose, 0 (gently) to kMaxHit (late and fast), coming to rest in
+  /// it. None: the dance passes through it.
   std::optional<double> hit = {};
-  /// The hands' pose there; kept for characters with fingers, but not danced.
+  /// The hands' pose at the key. Kept for characters with fingers; does not affect the dance.
   std::optional<HandPose> hands = {};
 };
 
 /// A point where any server of the same fingerprint can resume a dance. Opaque except for the
 /// members below.
 struct Continuation {
-  int64_t frame = 0;              ///< the first that is still to be made
+  int64_t frame = 0;              ///< the first frame to generate
   int64_t audio_from_sample = 0;  ///< music before it need not be sent again
   std::string fingerprint = {};
-  std::string bytes = {};  ///< the whole, serialised
+  std::string bytes = {};  ///< the whole continuation, serialised
 };
 
 /// The configuration of a dance.
@@ -71,34 +71,35 @@ struct DanceConfig {
   std::string style = {};                  ///< one of the model's; empty: any
   /// 0 to 1: how closely the dance's energy follows the music's; default: kDefaultDynamics
   std::optional<double> music_dynamics = {};
-  /// Poses right before the dance, at the model's rate, oldest first; empty: the dancer stands at
-  /// rest, facing +Z, where a path from frame 0 on begins, or else at the origin.
+  /// Poses right before the dance, at the model's rate, oldest first. Empty: the dancer stands at
+  /// rest, facing +Z, at the origin or, if a path begins at frame 0, at the path's beginning.
   std::vector<Pose> history = {};
-  int64_t first_frame = 0;  ///< number of the first frame made, with `history`
+  int64_t first_frame = 0;  ///< number of the first generated frame, with `history`
   std::optional<Continuation> continuation = {};  ///< instead of `history`
   AudioFormat audio = {};
   std::optional<int64_t> frames =
       {};  ///< the dance ends before this frame; otherwise with the music or the last key
-  /// Times of the music's beats, seconds, strictly ascending, 0 to 600: limbs are fastest on them,
-  /// and Beat messages and the report contain them. Empty: for a kFile the server finds them; for
-  /// kPcmFloat it predicts each transition's beats from the 12 s before it.
+  /// Times of the music's beats, seconds, strictly ascending, 0 to 600. Limbs are fastest on beats,
+  /// and Beat messages and the report contain them. Empty: the server finds the beats of a kFile,
+  /// and predicts each transition's beats from the 12 s before it for kPcmFloat.
   std::vector<double> music_beats = {};
-  /// Beats that begin a bar, for Beat messages.
+  /// Times of the beats that begin a bar, seconds, for Beat messages.
   std::vector<double> music_downbeats = {};
-  /// Identifies the music, as a part of the seed. 0: computed by the server for a kFile, none for
+  /// Identifies the music, as a part of the seed. 0: the server computes it for a kFile; none for
   /// kPcmFloat.
   uint64_t music_id = 0;
   /// The API's music_passages: where the music repeats, and the dance with it. Empty: the server
-  /// finds them in a kFile.
+  /// finds the passages of a kFile.
   std::vector<Passage> music_passages = {};
-  /// The API's music_energies: how energetic the whole song is, every half second, -2 to 2. Empty:
-  /// the server hears it in a kFile; for kPcmFloat it hears what precedes each transition.
+  /// The API's music_energies: the energy of the whole song, every half second, -2 to 2. Empty: the
+  /// server measures it in a kFile, and in the music before each transition for kPcmFloat.
   std::vector<float> music_energies = {};
   /// 0 to 1: how much a repeated dance differs; default: kDefaultVariation
   std::optional<double> variation = {};
-  /// Acts like RemoteDance::GenerateUntil before all else: keys grant no frames, so can be edited.
+  /// Acts like RemoteDance::GenerateUntil before any other request. Keys then permit no frames, so
+  /// that they can be edited.
   std::optional<int64_t> generate_until = {};
-  /// A key that cannot be used is a KeyRejected message, instead of the end of the dance.
+  /// Answers an unusable key with a KeyRejected message instead of ending the dance.
   bool reject_invalid_keys = false;
   /// Controls from the first frame on, for models that support them (ModelDescription::controls).
   ControlRequest controls = {};

@@ -12,7 +12,7 @@
 #include "model/messages/quality_report.h"
 #include "model/motion/motion.h"
 
-/// The server's answers during a dance. For conventions see choreo_client.h.
+/// Messages from the server during a dance. For conventions see choreo_client.h.
 namespace choreo::client {
 
 using Header = DanceHeader;
@@ -25,21 +25,22 @@ struct FrameBlock {
   uint32_t candidate = 0;               ///< of a transition
 };
 
-/// The tolerance within which a dance meets its keys: of any joint, in metres and degrees.
+/// The largest deviation of a dance from its keys, for any joint, in metres and degrees.
 inline constexpr double kMaxKeyError_m = 0.001, kMaxKeyError_deg = 0.1;
 
 using choreo::Beat, choreo::KeyReached, choreo::KeyRejected, choreo::Warning;
 
-/// The server was lost and another one continues; frames before `frame` are not sent again.
+/// The server was lost and another one continues the dance. Frames before `frame` are not sent
+/// again.
 struct Resumed {
   std::string address = {};
   int64_t frame = 0;        ///< at Header::fps
-  bool exact = true;        ///< false: of another fingerprint
+  bool exact = true;        ///< false: the new server has another fingerprint
   std::string reason = {};  ///< the cause
 };
 
-/// The end of a dance, with its quality. `frames` and `keys` cover the whole dance; the rest covers
-/// frames from `measured_from` on, which is where the last server took over.
+/// The last message of a dance, with its quality. `frames` and `keys` cover the whole dance. The
+/// other figures cover the frames from `measured_from` on, where the last server took over.
 struct Report : QualityReport {
   CallTiming timing = {};
 };

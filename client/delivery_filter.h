@@ -9,25 +9,25 @@
 
 namespace choreo::client {
 
-/// A key by its id, and its frame at the model's rate.
+/// A key's id, and its frame at the model's rate.
 using KeyPlace = std::pair<std::string, int64_t>;
 
-/// Filters out what a resumed dance repeats, so that the caller receives everything once. Not
-/// thread-safe.
+/// Filters out the frames and events that a resumed dance repeats, so that the caller receives each
+/// once. Not thread-safe.
 class DeliveryFilter {
  public:
   explicit DeliveryFilter(int64_t next_frame) : next_frame_(next_frame) {}
 
   /// The next frame to be delivered, at the output rate.
   int64_t next_frame() const { return next_frame_; }
-  /// Another server continues from `frame` (at the model's rate) and receives all messages again.
-  /// It will answer keys before that frame as rejected or as reached: these are `late`, each listed
-  /// as often as it was sent.
+  /// Prepares for another server, which continues from `frame` (at the model's rate) and receives
+  /// all messages again. `late`: the keys before that frame, each listed as often as it was sent.
+  /// The new server will report these as rejected or as reached.
   void Restart(int64_t frame, std::vector<KeyPlace> late);
-  /// Cuts away the frames that were delivered already; false if none is left. Throws
-  /// Error(kInternal) where frames are missing.
+  /// Removes the frames that were delivered already. Returns false if none is left. Throws
+  /// Error(kInternal) if frames are missing.
   bool Admit(FrameBlock* block);
-  /// False for an event that was delivered already.
+  /// Returns false for an event that was delivered already.
   bool Admit(const DanceEvent& event);
 
  private:
@@ -35,7 +35,7 @@ class DeliveryFilter {
 
   int64_t next_frame_;
   std::multiset<KeyPlace> rejected_;  // delivered
-  std::multiset<KeyPlace> expected_;  // answers that the present server is still to repeat
+  std::multiset<KeyPlace> expected_;  // answers that the present server has yet to repeat
   std::set<KeyPlace> reached_;
   std::set<std::pair<std::string, int64_t>> warnings_;
   double last_beat_s_ = -1;

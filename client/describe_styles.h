@@ -7,8 +7,8 @@
 
 namespace choreo::client {
 
-/// Tells people whether a model's styles can be seen in its dances: "They do not show: in 7 % of
-/// seconds a classifier recognises the style asked for, by chance in 6 %."
+/// Describes, for people, whether a model's styles can be seen in its dances: "They do not show: in
+/// 7 % of seconds a classifier recognises the style asked for, by chance in 6 %."
 std::string DescribeStyles(const std::optional<StyleFigures>& figures);
 
 }  // namespace choreo::client

@@ -11,9 +11,9 @@
 namespace choreo::client {
 namespace {
 
-constexpr int64_t kLeadIn = 10;  // poses sent of the motion that follows
+constexpr int64_t kLeadIn = 10;  // poses of the following motion that are sent
 
-/// New frames, at the model's rate, from `first` on.
+/// New frames, at the model's rate, starting at `first`.
 struct Part {
   int64_t first = 0;
   std::vector<Pose> poses;
@@ -35,7 +35,7 @@ class Edit {
     }
     const Motion& motion = dance.motion;
     poses_ = motion.fps == fps() ? motion.frames : Resample(motion, fps()).frames;
-    // A file's rotations may be wound up; sends the shortest vectors.
+    // A file's rotation vectors may contain whole turns: sends the shortest vectors.
     const Pose unturned{{}, Eigen::Matrix3Xd::Zero(3, poses_.front().rotations.cols())};
     for (Pose& pose : poses_) MakeContinuous(pose, unturned);
   }
@@ -48,24 +48,25 @@ class Edit {
   int64_t FrameOf(const KeyPose& key) const {
     return key.frame.value_or(std::llround(key.time_s * fps()));
   }
-  /// The most frames of one transition.
+  /// The largest number of frames of one transition.
   int64_t longest() const { return options_.model.max_transition_frames; }
 
-  /// The transition after frame `from` (-1: from rest at the origin).
+  /// Requests the transition after frame `from` (-1: from rest at the origin).
   TransitionRequest After(int64_t from, int64_t frames) const {
     TransitionRequest request = Request(from + 1, frames);
     request.config.history = Poses(from + 1 - options_.model.history_frames, from + 1);
     request.config.first_frame = from + 1;
     return request;
   }
-  /// A transition that continues another one.
+  /// Requests a transition that continues another one.
   TransitionRequest After(const TransitionCandidate& before, int64_t frames) const {
     TransitionRequest request = Request(before.continuation.frame, frames);
     request.config.continuation = before.continuation;
     return request;
   }
 
-  /// Its candidates. `leads_on`: its target is a frame of the dance, whose pose needs no warning.
+  /// Returns a transition's candidates. `leads_on`: the target is a frame of the dance, whose pose
+  /// needs no warning.
   std::vector<TransitionCandidate> Generate(const TransitionRequest& request, bool leads_on) {
     TransitionResult result = client_.GenerateTransition(request);
     if (leads_on)
@@ -76,8 +77,8 @@ class Edit {
     return std::move(result.candidates);
   }
 
-  /// Puts new frames into the dance. `next` is the pose after the last of them, if any. Frames
-  /// before and after stay unchanged: at the dance's own rate, new frames lie strictly between
+  /// Inserts new frames into the dance. `next` is the pose after the last of them, if any. Frames
+  /// before and after stay unchanged: at the dance's own rate, the new frames are strictly between
   /// them.
   void Splice(const Part& part, const std::optional<Pose>& next) {
     Motion& motion = result_.dance.motion;
@@ -102,7 +103,7 @@ class Edit {
     for (int64_t frame = first; frame < end; ++frame) {
       motion.frames[static_cast<size_t>(frame)] = PoseAt(
           curve, static_cast<double>(frame) / motion.fps - static_cast<double>(start) / fps());
-      // The frames before may be wound up.
+      // The rotation vectors of the frames before may contain whole turns.
       if (frame > 0)
         MakeContinuous(motion.frames[static_cast<size_t>(frame)],
                        motion.frames[static_cast<size_t>(frame) - 1]);
@@ -154,7 +155,7 @@ class Edit {
     if (!worst.message.empty()) result_.warnings.push_back(worst);
   }
 
-  /// Takes the contacts of the nearest new frame.
+  /// Gives each new frame of the dance the contacts of the nearest frame of `part`.
   void SpliceContacts(const Part& part, int64_t first, int64_t end) {
     result_.first_changed = first;
     result_.end_changed = end;
@@ -201,7 +202,7 @@ void CheckKeyEdit(int64_t first, int64_t last, int64_t from, int64_t to, int64_t
   }
 }
 
-/// The end of one of an edit's transitions: a pose, or free.
+/// The end of one of an edit's transitions: a pose, or none.
 struct Stop {
   int64_t frame = 0;
   std::optional<Pose> pose = {};
@@ -215,7 +216,7 @@ Stop StopAt(int64_t frame, const KeyPose& key) {
   return {frame, key.pose, key.mask, key.id, key.hit};
 }
 
-/// Adds free stops where one transition cannot span the way to the next stop.
+/// Adds stops without a pose where one transition cannot span the way to the next stop.
 std::vector<Stop> Spanned(int64_t from, const std::vector<Stop>& stops, int64_t longest) {
   std::vector<Stop> spanned;
   for (const Stop& stop : stops) {
@@ -228,10 +229,10 @@ std::vector<Stop> Spanned(int64_t from, const std::vector<Stop>& stops, int64_t 
   return spanned;
 }
 
-/// The way from one frame to another, which stays unchanged if it is a frame of the dance.
+/// The way from one frame to another. The end frame stays unchanged if it belongs to the dance.
 struct Way {
   int64_t from = 0;
-  std::vector<Stop> stops = {};  // the last is at `to` if the dance leads on
+  std::vector<Stop> stops = {};  // the last one is at `to` if the dance continues there
   int64_t to = 0;
   bool leads_on = false;
 };
@@ -250,7 +251,7 @@ Way WayThrough(const Edit& work, int64_t from, std::vector<Stop> stops, int64_t 
   return {from, Spanned(from, stops, work.longest()), to, leads_on};
 }
 
-/// The transition to a stop; `before`: the one to the stop before it.
+/// Requests the transition to a stop. `before`: the transition to the previous stop.
 TransitionRequest RequestFor(const Edit& work, const Way& way, size_t index,
                              const TransitionCandidate& before) {
   const Stop& stop = way.stops[index];
@@ -262,15 +263,14 @@ TransitionRequest RequestFor(const Edit& work, const Way& way, size_t index,
   request.target_mask = stop.mask;
   request.target_hit = stop.hit;
   request.target_id = stop.id;
-  // Omits a path that covers none of this transition, which would warn that the path has no
-  // effect.
+  // Omits a path that covers none of this transition: the server would warn that it has no effect.
   auto& path = request.config.controls.root_path;
   if (path && !path->frames.empty() &&
       ((!is_last && path->frames.front() > stop.frame) ||
        (index > 0 && path->frames.back() <= begin))) {
     path.reset();
   }
-  // Who holds a pose follows no path and has no speed, which would warn.
+  // Omits controls while a pose is held: the server would warn that they have no effect.
   if (stop.held) request.config.controls = {};
   if (is_last && way.leads_on) request.after = work.From(way.to + 1);
   return request;
@@ -280,7 +280,7 @@ TransitionRequest RequestFor(const Edit& work, const Way& way, size_t index,
 void Append(const TransitionCandidate& danced, bool leads_on, Part* part, Edit* work) {
   part->poses.insert(part->poses.end(), danced.motion.frames.begin(), danced.motion.frames.end());
   part->contacts.insert(part->contacts.end(), danced.contacts.begin(), danced.contacts.end());
-  if (leads_on) {  // the last one is the unchanged frame
+  if (leads_on) {  // the last frame is unchanged
     part->poses.pop_back();
     part->contacts.pop_back();
     return;
@@ -305,7 +305,7 @@ EditedDance DanceThrough(Edit& work, const Way& way) {
   return work.Take();
 }
 
-/// Candidates of the one transition that spans it.
+/// Returns candidates of the one transition that spans the way.
 std::vector<EditedDance> DanceCandidates(Edit& work, const Way& way, int takes) {
   TransitionRequest request = RequestFor(work, way, 0, {});
   request.candidates = takes;
@@ -320,7 +320,7 @@ std::vector<EditedDance> DanceCandidates(Edit& work, const Way& way, int takes) 
   return danced;
 }
 
-/// Checks the gap.
+/// Checks a gap, and returns the way across it.
 Way WayAcross(const Edit& work, const Gap& gap) {
   const int64_t frames = work.frames();
   if (gap.from < -1 || gap.from > frames - 2) {
@@ -368,7 +368,7 @@ void SetMusic(const Audio& song, const ModelDescription& model, int64_t first,
       kMaxMusicBytes / static_cast<double>(channels * song.format.sample_rate * sizeof(float));
   const double before_s =
       std::clamp(most_s - (end - start), model.audio_lead_s, model.audio_lead_s + kMusicBefore_s);
-  // After the song's end there is silence; clamping to the last sample is as good.
+  // Silence follows the song's end; clamping to the last sample has the same effect.
   const int64_t from = std::clamp<int64_t>(sample(start - before_s) - 1, 0, total - 1);
   const int64_t to = std::clamp<int64_t>(sample(end), from + 1, total);
   request->audio.format = song.format;
@@ -427,7 +427,7 @@ EditedDance CloseLoop(const Client& client, const FinishedDance& dance, const Ed
                                       std::to_string(std::min(last, work.frames() - 1)) +
                                       "]: at least one frame must lead back");
   }
-  // Returns to the first frame after the last.
+  // Leads back from the last frame to the first one.
   TransitionRequest request = work.After(from, work.frames() + added - from);
   request.target = work.pose(0);
   request.target_id = "the beginning";

@@ -8,17 +8,18 @@
 #include "client/choreo_client.h"
 #include "model/messages/dance_manner.h"
 
-/// Edits of finished dances. Frames outside an edit stay the same, bit for bit; GenerateTransition
-/// dances those inside again, from the frames before into those after, so that neither end shows.
+/// Edits finished dances. Frames outside an edit stay the same, bit for bit. GenerateTransition
+/// generates those inside again, smoothly continuing the frames before and leading into the frames
+/// after.
 ///
-/// Frame numbers count at the model's rate from the dance's first frame; a dance at another rate is
-/// sampled at the model's, and the new frames are interpolated at its own.
+/// Frame numbers count from the dance's first frame, at the model's rate. A dance at another rate
+/// is resampled to the model's, and new frames are interpolated at the dance's rate.
 namespace choreo::client {
 
-/// Seconds of music after a frame that its features need, rounded up.
+/// Seconds of music after a frame that its music features need, rounded up.
 inline constexpr double kMusicBeyond_s = 0.5;
-/// Seconds of music before the first frame that determine its energy, as far as they fit into the
-/// byte limit.
+/// Seconds of music before the first frame that determine the frame's energy, as far as they fit
+/// into kMaxMusicBytes.
 inline constexpr double kMusicBefore_s = 35;
 inline constexpr double kMaxMusicBytes = 12 << 20;
 
@@ -38,24 +39,24 @@ struct EditOptions : DanceManner, KnownMusic {
 
 /// A key pose to set into a dance: changes the frames between `from` and `to`, both exclusive.
 struct KeyEdit {
-  KeyPose key = {};                ///< its frame is in the dance; it replaces a key there
+  KeyPose key = {};                ///< its frame must be in the dance; replaces a key there
   std::vector<KeyPose> held = {};  ///< keys after it that hold its pose, in order
   /// The last unchanged frame before the key, at least 2 before it; -1 for a key at frame 0.
   int64_t from = 0;
-  /// The first unchanged frame after the last of them, at least 2 after it; the dance's frame count
-  /// if that is the dance's last frame.
+  /// The first unchanged frame after the last of `key` and `held`, at least 2 after it; the dance's
+  /// frame count if that key is at the dance's last frame.
   int64_t to = 0;
-  std::string to_id = {};  ///< name of what is at `to` in warnings; empty: "the dance at frame N"
-  std::optional<double> to_hit = {};  ///< how hard it is hit, as KeyPose::hit
+  std::string to_id = {};  ///< name of the pose at `to` in warnings; empty: "the dance at frame N"
+  std::optional<double> to_hit = {};  ///< KeyPose::hit of the pose at `to`
 };
 
-/// Frames between `from` and `to`, both exclusive, to dance anew.
+/// The frames between `from` and `to`, both exclusive, to generate again.
 struct Gap {
   int64_t from = 0;        ///< in the dance; -1: from rest at the origin
   int64_t to = 0;          ///< at least 2 after `from`; the dance's frame count for an open end
-  std::string to_id = {};  ///< as in KeyEdit, here and below
-  std::optional<double> to_hit = {};
-  std::vector<KeyPose> keys = {};  ///< between them, with frames, in order
+  std::string to_id = {};  ///< as in KeyEdit
+  std::optional<double> to_hit = {};  ///< as in KeyEdit
+  std::vector<KeyPose> keys = {};     ///< between them, with frames, in order
 };
 
 /// The result of an edit.
@@ -63,45 +64,47 @@ struct EditedDance {
   FinishedDance dance = {};
   int64_t first_changed = 0;           ///< frame of the dance, at its own rate
   int64_t end_changed = 0;             ///< the frame after the last changed one, likewise
-  std::vector<KeyReached> keys = {};   ///< that were set
+  std::vector<KeyReached> keys = {};   ///< the keys that were set
   std::vector<Warning> warnings = {};  ///< from the server, and about knees bent backwards
 };
 
-/// Gives a transition the part of a song that its frames, starting at `first`, and their energy
-/// depend on: messages have a limit, songs have none. Gives none to a model without music. `song`:
-/// as EditOptions::audio. Throws Error(kInvalidArgument) whose field is "audio".
+/// Sets a transition's music: the part of a song on which its frames, starting at `first`, and
+/// their energy depend. Sends only that part because messages have a size limit. Sets none for a
+/// model without music. `song`: as EditOptions::audio. Throws Error(kInvalidArgument) whose field
+/// is "audio".
 void SetMusic(const Audio& song, const ModelDescription& model, int64_t first,
               TransitionRequest* request);
 
-/// The number of a dance's frames at the model's rate. Throws Error(kInvalidArgument) for a dance
-/// without frames.
+/// Counts a dance's frames at the model's rate. Throws Error(kInvalidArgument) for a dance without
+/// frames.
 int64_t CountModelFrames(const FinishedDance& dance, const ModelDescription& model);
 
-/// Sets a key pose. Throws Error(kInvalidArgument) whose field is "key.frame", "from", "to",
-/// "audio" or "dance", and as GenerateTransition.
+/// Sets a key pose in a dance. Throws Error(kInvalidArgument) whose field is "key.frame", "from",
+/// "to", "audio" or "dance", and as GenerateTransition does.
 EditedDance SetKey(const Client& client, const FinishedDance& dance, const EditOptions& options,
                    const KeyEdit& edit);
 
-/// Dances the frames between two others again, through the gap's keys alone: another take, or one
-/// without a key. Throws Error(kInvalidArgument) whose field is "from", "to", "keys", "audio" or
-/// "dance", and as GenerateTransition.
+/// Generates the frames of a gap again, through the gap's keys alone, for another take or to remove
+/// a key. Throws Error(kInvalidArgument) whose field is "from", "to", "keys", "audio" or "dance",
+/// and as GenerateTransition does.
 EditedDance DanceAnew(const Client& client, const FinishedDance& dance, const EditOptions& options,
                       const Gap& gap);
 
-/// The same, `takes` times: candidates of one transition where one spans the gap; else with the
-/// seeds that follow. Throws the same.
+/// Generates `takes` versions of a gap, each as DanceAnew does. They are the candidates of one
+/// transition if it can span the gap; otherwise each take has the next seed. Throws as DanceAnew
+/// does.
 std::vector<EditedDance> DanceTakes(const Client& client, const FinishedDance& dance,
                                     const EditOptions& options, const Gap& gap, int takes);
 
-/// Dances a whole dance again through its keys alone, which have frames, in order, as Client::Dance
-/// does: if nothing differs, the frames are those of the dance before it was edited. Throws as
-/// that, and Error(kInvalidArgument) for a dance without frames.
+/// Generates a whole dance again through its keys alone, as Client::Dance does. With unchanged keys
+/// and options, the frames are those of the dance before it was edited. `keys`: with frames, in
+/// order. Throws as Client::Dance does, and Error(kInvalidArgument) for a dance without frames.
 EditedDance DanceAllAnew(const Client& client, const FinishedDance& dance,
                          const EditOptions& options, const std::vector<KeyPose>& keys);
 
-/// Makes a dance loop: the frames after `from`, and `added` ones after the dance's end, at least
-/// one in all, lead back to the first ones. A dance at another rate than the model's also gets the
-/// frames missing to the model's next one. Throws the same.
+/// Makes a dance loop: generates the frames after `from`, and `added` ones after the dance's end,
+/// at least one in all, so that they lead back to the first ones. A dance at another rate than the
+/// model's also gets the frames up to the model's next one. Throws as DanceAnew does.
 EditedDance CloseLoop(const Client& client, const FinishedDance& dance, const EditOptions& options,
                       int64_t from, int64_t added = 0);
 

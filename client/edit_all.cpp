@@ -1,4 +1,4 @@
-// A whole dance, danced anew.
+// Generates a whole dance again.
 #include <algorithm>
 
 #include "client/edit.h"
@@ -7,7 +7,7 @@
 namespace choreo::client {
 namespace {
 
-/// As Client::Dance takes them.
+/// Returns the configuration for Client::Dance.
 DanceConfig ConfigFor(const FinishedDance& dance, const EditOptions& options) {
   DanceConfig config;
   config.model = options.model.name;
@@ -32,7 +32,7 @@ EditedDance DanceAllAnew(const Client& client, const FinishedDance& dance,
   EditedDance edited;
   edited.dance = {std::move(danced.motion), std::move(danced.contacts)};
   edited.end_changed = static_cast<int64_t>(dance.motion.frames.size());
-  // A file may have frames after the model's last.
+  // A file may have frames after the model's last frame.
   const auto frames = dance.motion.frames.size();
   edited.dance.motion.frames.resize(frames, edited.dance.motion.frames.back());
   if (dance.contacts.empty())

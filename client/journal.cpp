@@ -31,7 +31,7 @@ void Journal::ForgetMusicBefore(int64_t sample) {
     return audio.first_sample() + static_cast<int64_t>(audio.data().size()) / bytes_per_sample_ <=
            sample;
   };
-  // Keeps all unsent messages: the server cannot need less than it has.
+  // Keeps all unsent messages: the present server still needs them.
   const auto sent_end = requests_.begin() + static_cast<std::ptrdiff_t>(next_);
   const auto kept_end = std::remove_if(requests_.begin(), sent_end, is_past);
   next_ = static_cast<size_t>(kept_end - requests_.begin());

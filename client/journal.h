@@ -10,30 +10,30 @@
 
 namespace choreo::client {
 
-/// All requests of a dance, in order, to repeat them to another server: a dance resumes from the
-/// last continuation and the same messages. Forgets only music that is no longer needed. Not
+/// Stores all requests of a dance, in order, to repeat them to another server: a dance resumes from
+/// the last continuation and the same messages. Discards only music that is no longer needed. Not
 /// thread-safe.
 class Journal {
  public:
   using Request = std::shared_ptr<const v1::StreamDanceRequest>;
 
   /// `bytes_per_sample`: of all channels together; 0 for a music file, which is decoded as a whole.
-  /// `first_sample`: where the music starts.
+  /// `first_sample`: number of the first sample of the music.
   Journal(int bytes_per_sample, int64_t first_sample)
       : bytes_per_sample_(bytes_per_sample), end_sample_(first_sample) {}
 
   void Append(v1::StreamDanceRequest request);
   /// Appends music; a file's samples are bytes.
   void AppendMusic(std::string bytes);
-  /// The next request that the present server has not received, or null.
+  /// Returns the next request that the present server has not received, or null.
   Request TakeNext();
-  /// Restarts for another server.
+  /// Restarts at the first request, for another server.
   void Rewind() { next_ = 0; }
-  /// Another server would need only the music from this sample on.
+  /// Discards music before this sample, which another server would not need.
   void ForgetMusicBefore(int64_t sample);
   /// The first sample still stored.
   int64_t first_sample() const;
-  /// Keys that were before `frame` when sent: their ids and frames, in order. Models run at `fps`.
+  /// The ids and frames, in order, of keys that were before `frame` when sent. `fps`: the model's.
   std::vector<std::pair<std::string, int64_t>> KeysBefore(int64_t frame, double fps) const;
 
  private:

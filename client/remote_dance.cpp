@@ -47,7 +47,7 @@ void Attempt::SendLoop(const v1::StreamDanceRequest& first) {
       appended_.wait(lock, [&] { return stop_ || (request = journal_->TakeNext()) != nullptr; });
       if (stop_) return;
     }
-    // False once the call is over; Read then says why.
+    // Write returns false once the call is over; Read then reports why.
     if (!stream_->Write(*request)) return;
   }
 }
@@ -192,18 +192,18 @@ bool RemoteDance::Impl::IsOtherDance(const v1::Header& header) const {
 
 Message RemoteDance::Impl::HandleHeader(const v1::Header& header) {
   Header received = FromProto(header);
-  // Servers compare the fingerprints of continuations alone.
+  // Servers compare fingerprints only if there is a continuation.
   const bool exact =
       config_.has_continuation() ? header.exact_resume() : header.fingerprint() == fingerprint_;
   fingerprint_ = header.fingerprint();
   if (!header_) {
     header_ = received;
     first_stream_id_ = attempt_->StreamId();
-    // The position of the first output frame that is not before the first frame.
+    // The first output frame at or after the first frame.
     const double first =
         static_cast<double>(received.first_frame) * received.fps / received.model_fps;
     filter_.emplace(static_cast<int64_t>(std::ceil(first - 1e-9)));
-    // Another server must dance the same dance with the same model.
+    // Another server must generate the same dance with the same model.
     config_.set_seed(received.seed);
     config_.set_model(received.model);
     return received;
@@ -217,7 +217,7 @@ Message RemoteDance::Impl::HandleHeader(const v1::Header& header) {
 
 Message RemoteDance::Impl::HandleSummary(const v1::DanceSummary& summary) {
   Report report = FromProto(summary.report(), summary.timing());
-  // The server counts the frames that it made itself; where the dance began is known here.
+  // The server counts only the frames that it generated itself: adds those of earlier servers.
   report.frames += report.measured_from - header_->first_frame;
   complete_ = true;
   // Everything has been received, so the status does not matter.

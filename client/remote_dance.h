@@ -15,10 +15,11 @@
 namespace choreo::client {
 
 /// One call to one server. Its own thread sends the journal, so that neither the caller nor Read
-/// waits for it. `mutex`, the owner's, guards the journal; the owner notifies after appending.
+/// waits for sending. The owner's `mutex` guards the journal. The owner calls NotifyAppended after
+/// appending to it.
 class Attempt {
  public:
-  /// `resumed_from`: the StreamId of the call in which the dance began; empty: in this one.
+  /// `resumed_from`: the StreamId of the call in which the dance began; empty: this call.
   Attempt(const Replicas& replicas, const v1::StreamDanceRequest& first,
           std::optional<Patience::Clock::time_point> deadline, const std::string& resumed_from,
           Journal* journal, std::mutex* mutex);
@@ -27,9 +28,10 @@ class Attempt {
   Attempt& operator=(const Attempt&) = delete;
 
   const Replicas::Server& server() const { return server_; }
-  /// The call's name in the server's log; after the first Read. Empty if the server tells none.
+  /// The call's name in the server's log, known after the first Read. Empty if the server gives
+  /// none.
   std::string StreamId() const;
-  /// Blocks; false at the end of the call.
+  /// Waits for the next response. Returns false at the end of the call.
   bool Read(v1::StreamDanceResponse* response) { return stream_->Read(response); }
   /// Returns how the call ended. Call after Read returned false.
   grpc::Status Finish();
@@ -67,9 +69,10 @@ struct RemoteDance::Impl {
  private:
   void Connect();
   void Recover(const grpc::Status& status);
-  /// The part of a response for the caller, if any.
+  /// Returns the part of a response for the caller, if any.
   std::optional<Message> Handle(const v1::StreamDanceResponse& response);
-  /// Whether a server that begins the dance anew would make other frames without permission.
+  /// Whether a server that restarts the dance would generate other frames without permission
+  /// (Options::allow_inexact_resume).
   bool IsOtherDance(const v1::Header& header) const;
   Message HandleHeader(const v1::Header& header);
   Message HandleSummary(const v1::DanceSummary& summary);
@@ -78,7 +81,7 @@ struct RemoteDance::Impl {
   Patience patience_;
   AudioKind audio_kind_;
   int bytes_per_sample_;
-  v1::DanceConfig config_;  // used by Next alone
+  v1::DanceConfig config_;  // used only by Next
 
   std::mutex
       mutex_;  // guards the members below, and the attempt's lifetime against Cancel and Send
@@ -86,12 +89,12 @@ struct RemoteDance::Impl {
   std::unique_ptr<Attempt> attempt_;
   bool cancelled_ = false;
 
-  // Used by Next alone.
+  // The members below are used only by Next.
   std::optional<Header> header_;
-  std::string fingerprint_;  // of the server that danced last
+  std::string fingerprint_;  // of the last server that generated frames
   std::string first_stream_id_;
   std::optional<DeliveryFilter> filter_;
-  std::string lost_because_;  // not empty: the next header is a resumption
+  std::string lost_because_;  // if not empty, the next header is that of a resumption
   bool complete_ = false;
 };
 

@@ -72,7 +72,8 @@ std::shared_ptr<grpc::ChannelCredentials> Credentials(const Options& options) {
   return options.any_certificate ? Unverified(files) : grpc::SslCredentials(files);
 }
 
-/// Such traffic does not leave this machine. A name that only begins like an address is a name.
+/// Whether traffic to this address stays on this machine. A host name that merely begins like an
+/// IP address is a name.
 bool IsOfThisMachine(const std::string& address) {
   if (address.starts_with("unix:")) return true;
   const std::string host = SplitAddress(address).host;
@@ -81,7 +82,7 @@ bool IsOfThisMachine(const std::string& address) {
   return host == "localhost" || host == "[::1]";
 }
 
-// Refuses what gRPC would take for a name, or for another port.
+// Refuses addresses that gRPC would misread as a host name, or with another port.
 void CheckAddress(const std::string& address) {
   if (address.empty()) throw InvalidArgument("addresses", "one of them is empty");
   if (address.starts_with("http:") || address.starts_with("https:")) {
@@ -137,13 +138,13 @@ Replicas::Replicas(Options options) : options_(std::move(options)) {
   grpc::ChannelArguments arguments;
   if (!options_.server_name.empty()) arguments.SetSslTargetNameOverride(options_.server_name);
   arguments.SetMaxReceiveMessageSize(-1);
-  // gRPC's name for the time that one attempt to connect may take.
+  // Despite its name, gRPC also uses this as the time limit for one attempt to connect.
   arguments.SetInt(GRPC_ARG_MIN_RECONNECT_BACKOFF_MS,
                    static_cast<int>(options_.connect_timeout_s * 1000));
   arguments.SetInt(GRPC_ARG_INITIAL_RECONNECT_BACKOFF_MS, 100);
   arguments.SetInt(GRPC_ARG_MAX_RECONNECT_BACKOFF_MS, 1000);
   if (options_.silence_s > 0) {
-    // Half of the time passes before a ping, half is for its answer.
+    // Half of the time passes before a ping, the other half is for its answer.
     const auto half = static_cast<int>(std::min(options_.silence_s, 1e6) * 500);
     arguments.SetInt(GRPC_ARG_KEEPALIVE_TIME_MS, half);
     arguments.SetInt(GRPC_ARG_KEEPALIVE_TIMEOUT_MS, half);
@@ -197,8 +198,9 @@ void Replicas::Wait(std::chrono::duration<double> time, const std::function<bool
   using Clock = std::chrono::system_clock;
   const auto end = Clock::now() + std::chrono::duration_cast<Clock::duration>(time);
   const std::shared_ptr<grpc::Channel> channel = current().channel;
-  // Waits inside gRPC instead of sleeping: gRPC makes connections and reads answers to pings while
-  // a thread waits in it. Otherwise it polls every 5 s and takes a restored link for silent.
+  // Waits inside gRPC instead of sleeping. While a thread waits in it, gRPC makes connections and
+  // reads answers to pings. Otherwise gRPC polls only every 5 s and considers a restored link
+  // silent.
   for (auto now = Clock::now(); now < end && !stop(); now = Clock::now())
     channel->WaitForStateChange(channel->GetState(true), std::min(end, now + kPiece));
 }
@@ -243,7 +245,7 @@ std::optional<std::chrono::duration<double>> Patience::Next(
   refusals_ = advice.here ? 0 : refusals_ + 1;
   const bool useful = advice.here || (advice.elsewhere && refusals_ < servers_);
   const double left = retry_s_ - std::chrono::duration<double>(now - failing_since_).count();
-  // A server's retry delay concerns only that server.
+  // A server's retry delay applies only to that server.
   const double asked = elsewhere ? 0 : advice.wait_s;
   if (!useful || left <= 0 || asked > left) return std::nullopt;
   const double doubled = std::min(kMaxBackoffSeconds, first_backoff_s_ * std::exp2(failures_));

@@ -32,17 +32,17 @@ class Replicas {
   explicit Replicas(Options options);
 
   const Options& options() const { return options_; }
-  /// Adds the token to a call. Throws Error(kNotFound) or Error(kInvalidArgument), field
+  /// Adds the token to a call. Throws Error(kNotFound) or Error(kInvalidArgument) whose field is
   /// "token_file".
   void Prepare(grpc::ClientContext* context) const;
   Server current() const;
-  /// Moves on from a failed server to the next, unless another caller already has. False if there
-  /// is no other.
+  /// Switches from a failed server to the next, unless another caller already has. Returns false if
+  /// there is no other.
   bool Leave(const Server& failed);
   /// Calls Options::retried.
   void TellOfRetry(const Server& failed, const grpc::Status& status) const;
-  /// Waits before the next attempt, or until `stop`, which is polled, returns true; connections are
-  /// made meanwhile.
+  /// Waits for `time` before the next attempt, or until `stop`, which is polled, returns true.
+  /// Connections are made meanwhile.
   void Wait(std::chrono::duration<double> time, const std::function<bool()>& stop) const;
 
  private:
@@ -60,20 +60,20 @@ class Patience {
   explicit Patience(const Options& options);
 
   std::optional<Clock::time_point> deadline() const { return deadline_; }
-  /// How long to wait after `failed`, of the server at `address`, before trying again, on the same
-  /// server or another one (`elsewhere`); none if a retry is useless or no longer allowed, or the
-  /// server asks to wait longer than is left of Options::retry_s. Throws what Options::before_retry
-  /// throws.
+  /// Returns how long to wait after a failure of the server at `address` before a retry, on the
+  /// same server or another one (`elsewhere`). Returns none if a retry is useless or no longer
+  /// allowed, or the server asks to wait longer than is left of Options::retry_s. Throws what
+  /// Options::before_retry throws.
   std::optional<std::chrono::duration<double>> Next(
       const grpc::Status& failed, const std::string& address, bool elsewhere,
       std::chrono::steady_clock::time_point now = std::chrono::steady_clock::now());
-  /// The status for the caller after Next gave none. A reachable server's refusal says more than
-  /// that another one is unreachable.
+  /// The status to report to the caller after Next returned none. A refusal by a reachable server
+  /// takes precedence over another server being unreachable.
   const grpc::Status& Verdict() const { return verdict_; }
-  /// Whose it is: an address or, if no server was reached, all that were tried since the last
-  /// progress.
+  /// The origin of Verdict: an address or, if no server was reached, all addresses tried since the
+  /// last progress.
   std::string VerdictOf() const;
-  /// Notes progress: counting starts again.
+  /// Restarts the time for retries, because the call made progress.
   void Reset();
 
  private:
@@ -83,7 +83,7 @@ class Patience {
   std::optional<Clock::time_point> deadline_;
   size_t servers_;
   int failures_ = 0;     // since the last progress
-  size_t refusals_ = 0;  // consecutive servers that would refuse again
+  size_t refusals_ = 0;  // consecutive refusals by servers that would refuse again
   grpc::Status verdict_;
   std::string verdict_of_;
   std::vector<std::string>

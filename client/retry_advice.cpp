@@ -62,17 +62,17 @@ std::string FieldOf(const grpc::Status& status) {
   return bad_request.field_violations(0).field();
 }
 
-/// gRPC's words for a server that is not reached.
+/// gRPC's messages for a server that is not reached.
 constexpr const char* kAway[] = {"failed to connect to all addresses",
                                  "connections to all backends failing"};
 
-/// What of them says why.
+/// Extracts the reason from a message of gRPC's for a server that is not reached.
 std::string ReasonIn(const std::string& message) {
   constexpr std::string_view kLast = "last error: ", kFailed = "Failed to connect to remote host: ";
   const size_t last = message.find(kLast);
   if (last == message.npos) return "nobody answers";
   std::string_view reason = std::string_view(message).substr(last + kLast.size());
-  // A code and an address stand in front: "UNKNOWN: ipv4:127.0.0.1:50051: ".
+  // Removes a code and an address in front: "UNKNOWN: ipv4:127.0.0.1:50051: ".
   for (size_t end; (end = reason.find(' ')) != reason.npos && end > 0 && reason[end - 1] == ':';)
     reason.remove_prefix(end + 1);
   if (reason.starts_with(kFailed)) reason.remove_prefix(kFailed.size());
@@ -81,9 +81,10 @@ std::string ReasonIn(const std::string& message) {
   return text;
 }
 
-/// What a server that is not reached may miss, by its symptom; empty if unknown.
+/// Suggests, by the symptom, which TLS option may be missing or wrong for a server that is not
+/// reached. Empty if unknown.
 std::string TlsHint(const std::string& message, const Options& options) {
-  // A server ends so what is no TLS, and connections whose client certificate it does not take.
+  // A TLS server closes connections without TLS, and with a client certificate that it rejects.
   if (message.ends_with("ocket closed")) {
     if (!options.tls) return "; it may want TLS, which is off";
     return options.client_certificate.empty() ? "; it may want a client certificate"
@@ -96,7 +97,7 @@ std::string TlsHint(const std::string& message, const Options& options) {
 
 constexpr const char* kFingerprintField = "config.continuation.fingerprint";
 
-/// Whether another replica may have been started with another value.
+/// Whether other replicas may have another value of this field, set when they were started.
 bool IsTheReplicas(const std::string& field) {
   return field == "config.model" || field == kFingerprintField ||
          field == "config.continuation.skeleton";
@@ -108,7 +109,7 @@ Error ToError(const grpc::Status& status) {
   const std::string field = FieldOf(status);
   std::string message = status.error_message();
   if (!field.empty()) {
-    // Error puts the field in front itself.
+    // Error's constructor puts the field in front.
     if (message.starts_with(field + ": ")) message.erase(0, field.size() + 2);
   }
   if (message.empty()) message = "the server failed without saying why";

@@ -10,31 +10,33 @@ namespace choreo::client {
 
 struct Options;
 
-/// Converts a failed call's status to an error: its code, and its message, which already names the
-/// field.
+/// Converts a failed call's status to an error with its code and its message, which already names
+/// the field.
 Error ToError(const grpc::Status& status);
 
-/// Whether no server was reached.
+/// Whether the status means that no server was reached.
 bool IsAway(const grpc::Status& status);
 
-/// The same for a server at this address, or servers at several, called with these options: names
-/// unreachable servers, what of TLS they may miss, and a full one, with when to come again.
+/// Converts a failed call's status to an error that explains more. `address`: one server's or
+/// several, called with `options`. For unreachable servers, the message names them and suggests
+/// which TLS option may be missing. For a full server, it names the server and when to retry.
 Error ToError(const grpc::Status& status, const std::string& address, const Options& options);
 
-/// The error for a restarted dance on a server of another fingerprint, which would make other
-/// frames. Servers refuse a continuation in the same way; another one may do better.
+/// The status for restarting a dance on a server of another fingerprint, which would generate other
+/// frames. Servers refuse a continuation with the same status; another server may accept it.
 grpc::Status RefusedFingerprint(const std::string& begun, const std::string& address,
                                 const std::string& found);
 
-/// How to retry a failed call.
+/// Where and when to retry a failed call.
 struct RetryAdvice {
   bool here = false;       ///< at the same server
   bool elsewhere = false;  ///< at another one
-  double wait_s = 0;       ///< at least; from the server's RetryInfo
+  double wait_s = 0;       ///< least delay, from the server's RetryInfo
 };
 
-/// An unreachable or full server may be asked again. One that broke, has another fingerprint or
-/// lacks the model would fail again, but another may do better. Anything else fails everywhere.
+/// Returns how to retry a failed call. An unreachable or full server may be tried again. A server
+/// that broke, has another fingerprint or lacks the model would fail again, but another may
+/// succeed. Any other failure would recur everywhere.
 RetryAdvice AdviceFor(const grpc::Status& status);
 
 }  // namespace choreo::client

@@ -6,12 +6,12 @@
 
 #include "model/messages/model_description.h"
 
-/// A choreod's description of itself and its models.
+/// A server's description of itself and its models.
 namespace choreo::client {
 
 using choreo::ModelDescription;
 
-/// A server.
+/// The answer to GetServerInfo.
 struct ServerDescription {
   std::string version = {};
   std::vector<ModelDescription> models = {};  ///< the first is the default
