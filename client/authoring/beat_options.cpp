@@ -21,7 +21,7 @@ namespace {
 constexpr double kMaxSongSeconds = 1e6;  // of a song, of which the dance may use only a part
 constexpr std::streamsize kMaxLineLength = 1000;
 
-/// Continues the count from counted beats to the others.
+/// Extends the count in the bar from counted beats to the others.
 void CountOthers(BeatTrack* track) {
   const auto first = std::ranges::find(track->in_bar, 0);
   // A bar lasts from one to the next if only downbeats are known.
@@ -101,7 +101,7 @@ BeatTrack ReadBeats(const std::string& path, double start) {
   return track;
 }
 
-/// Within a semitone.
+/// Whether two tempos differ by less than a semitone's ratio.
 bool IsNear(double bpm, double other) {
   const double ratio = bpm / other;
   return std::max(ratio, 1 / ratio) <= 1.06;
@@ -119,7 +119,7 @@ bool HasTempo(std::span<const double> beats, double bpm) {
   return false;
 }
 
-/// Warns of a tempo that nothing in the music has, or that no beats have.
+/// Warns if nothing in the music has the requested tempo, or if no beats have it.
 void WarnOfTempo(std::span<const Onset> onsets, double asked_bpm, double found_bpm,
                  double taken_bpm) {
   std::string warning;

@@ -10,13 +10,13 @@
 
 namespace choreo::authoring {
 
-inline constexpr int kMaxBeatsInBar = 16;  ///< that people count to
+inline constexpr int kMaxBeatsInBar = 16;  ///< people count no further
 
 /// Options that override the beat tracker.
 struct BeatOptions {
   std::optional<std::string> beats = {};  ///< the name of a file, or "auto" to find them
   BeatHint hint = {};
-  std::optional<double> downbeat_s = {};  ///< of the song
+  std::optional<double> downbeat_s = {};  ///< a downbeat, in seconds of the song
 
   bool FindsThem() const { return beats.value_or("auto") == "auto"; }
 
@@ -26,14 +26,14 @@ struct BeatOptions {
 /// Throws Error(kInvalidArgument) for beat options without a song.
 void RequireSong(const BeatOptions& options, const std::string& song);
 
-/// A song's beats from second `start` on, found or read, depending on the options. Warns on
-/// standard error of a tempo that is not heard in it. Throws Error(kInvalidArgument), whose field
-/// is "beats", "downbeat" or a line of the file. `mono` as in TrackBeats.
+/// Finds or reads, depending on the options, a song's beats from second `start` on. Warns on
+/// standard error if the requested tempo is not found in the song. Throws Error(kInvalidArgument)
+/// whose field is "beats", "downbeat" or a line of the file. `mono` as in TrackBeats.
 BeatTrack BeatsAsAsked(std::span<const Onset> onsets, double start, const BeatOptions& options,
                        std::span<const float> mono = {});
 
-/// Changes known beats and their downbeats by the options for half and double time and a downbeat.
-/// Seconds of a dance that begins at second `start` of its song.
+/// Applies the options for half and double time and for a downbeat to known beats and their
+/// downbeats, in seconds of a dance that begins at second `start` of its song.
 void ChangeBeats(const BeatOptions& options, double start, std::vector<double>* beats,
                  std::vector<double>* downbeats);
 

@@ -12,11 +12,11 @@
 namespace choreo::authoring {
 namespace {
 
-constexpr double kMinPeriod = 1.6;      // seconds, of the count that keys keep
+constexpr double kMinPeriod = 1.6;      // seconds, least interval between counts with keys
 constexpr double kPlainInterval = 2.0;  // without beats
 constexpr double kWalkingSpeed = 0.28;  // metres a second, at most
 constexpr double kTurningSpeed = 0.35;  // radians a second, at most
-constexpr double kStageRadius = 1.2;    // metres; beyond it the way leads back
+constexpr double kStageRadius = 1.2;    // metres; beyond it the path leads back
 
 /// Uniform random numbers that do not depend on the standard library.
 class Dice {
@@ -31,9 +31,9 @@ class Dice {
   std::mt19937_64 engine_;
 };
 
-/// The seconds of keys, the first at 0. With beats there is a key on count 1 and every 1, 2, 4, 8
-/// ... beats from it, the fewest that leave time to move; the count continues before the first and
-/// after the last beat.
+/// Returns the seconds of keys, the first at 0. With beats there is a key on count 1 and every 1,
+/// 2, 4, 8 ... beats from it, the fewest that leave time to move. The count continues before the
+/// first beat and after the last.
 std::vector<double> KeyTimes(const CompositionRequest& request) {
   const auto& [seconds, beats, first, passages, seed, way, end, named] = request;
   double period = kPlainInterval;
@@ -59,7 +59,7 @@ std::vector<double> KeyTimes(const CompositionRequest& request) {
   return times;
 }
 
-/// The dancer's way over the floor.
+/// The dancer's path over the floor.
 class Walk {
  public:
   explicit Walk(Dice* dice) : dice_(dice) {}
@@ -89,7 +89,7 @@ class Deck {
   Deck(Dice* dice, std::span<const LibraryPose> poses, std::span<const Passage> passages)
       : dice_(dice), poses_(poses), passages_(passages) {}
 
-  /// The pose of the key at times[i], which stands after the ones before.
+  /// Returns the pose of the key at times[i], which may follow those returned before.
   size_t Next(std::span<const double> times, size_t i) {
     std::optional<size_t> pose = Before(times[i]);
     if (!pose) pose = Draw(i + 1 < times.size() ? Before(times[i + 1]) : std::nullopt);
@@ -103,10 +103,10 @@ class Deck {
     size_t pose;
   };
 
-  /// The pose of the key at the same place in the earlier passage.
+  /// Returns the pose of the key at the same place in the earlier passage, if any.
   std::optional<size_t> Before(double time) const {
     for (const Passage& passage : passages_) {
-      // A passage's first key stands on a beat near its beginning.
+      // A passage's first key is on a beat near the passage's beginning.
       if (time < passage.from - kMinKeyInterval || time >= passage.to) continue;
       const double then = time - passage.from + passage.like;
       for (const Drawn& key : drawn_) {
@@ -116,8 +116,8 @@ class Deck {
     return std::nullopt;
   }
 
-  /// `next`: the pose that the key after this one repeats. Neighbours differ, and none begins with
-  /// an ending.
+  /// Draws a pose that differs from its neighbours; the first is not an ending. `next`: the pose
+  /// that the following key repeats, if any.
   size_t Draw(std::optional<size_t> next) {
     if (left_.empty()) {  // a pose repeats only after all others
       for (size_t i = 0; i < poses_.size(); ++i) left_.push_back(i);
@@ -148,7 +148,7 @@ struct Step {
   GroundFrame place;
 };
 
-/// Draws one for each time.
+/// Draws a step for each of `times`.
 std::vector<Step> DrawSteps(uint64_t seed, const std::vector<double>& times,
                             std::span<const Passage> passages, std::span<const LibraryPose> poses) {
   Dice dice(seed);

@@ -19,26 +19,27 @@ struct CompositionRequest {
   size_t one = 0;                      ///< index of the beat that is count 1
   std::vector<Passage> passages = {};  ///< repeats in the music
   uint64_t seed = 0;
-  /// The seed of the way over the floor, shared so that a formation keeps its shape.
+  /// The seed of the path over the floor. Dancers share it so that a formation keeps its shape.
   std::optional<uint64_t> way = {};
   /// Time of the last key, at most `seconds`; none: the last one that fits the bars.
   std::optional<double> end_s = {};
   std::string named = "seconds";  ///< the field of errors about `seconds`
 };
 
-/// Draws a library pose for a key at each of these ascending seconds: never the same twice in a
-/// row, none again before all were drawn, and no ending first; but a repeated passage gets the
-/// original's pose. Deterministic. Indices of `poses`.
+/// Draws a library pose for a key at each of `times`, ascending seconds. No pose is drawn twice in
+/// a row or again before all have been drawn, and the first pose is not an ending. A repeated
+/// passage gets the poses of the original. Deterministic. Returns indices of `poses`.
 std::vector<size_t> DrawPoses(std::span<const double> times, std::span<const Passage> passages,
                               uint64_t seed, std::span<const LibraryPose> poses);
 
 /// The id of a dance's key, counted from 1.
 std::string IdOfKey(size_t number, const LibraryPose& pose);
 
-/// Makes keys of library poses on the music's beats: one at second 0, then about one per bar, on
-/// count 1 and on those that follow it at equal distances, drawn by DrawPoses, walking within two
-/// metres of the origin and turning gradually. Every two seconds without beats. Deterministic.
-/// Throws Error(kInvalidArgument, named) for a dance of less than two seconds.
+/// Makes keys of library poses on the music's beats. The first is at second 0; the others are about
+/// one per bar, on count 1 and on counts at equal distances from it, or every two seconds without
+/// beats. DrawPoses draws the poses. The dancer walks within two metres of the origin and turns
+/// gradually. Deterministic. Throws Error(kInvalidArgument, named) for a dance of less than two
+/// seconds.
 std::vector<client::KeyPose> ComposeKeys(const CompositionRequest& request,
                                          std::span<const LibraryPose> poses);
 

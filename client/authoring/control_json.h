@@ -9,8 +9,10 @@
 
 #include "model/core/error.h"
 
-/// A control's request (model/motion/control_request.h) in JSON, in a report or a project: the
-/// fields of the API's message that are not empty. Points are x, z, x, z, ...
+/// Converts a control's request (model/motion/control_request.h) to and from JSON, for reports and
+/// projects. The JSON has the fields of the API's message that are not empty. Points are x, z, x,
+/// z,
+/// ...
 namespace choreo::authoring {
 
 struct ControlFieldWriter {
@@ -48,7 +50,7 @@ nlohmann::ordered_json ControlJson(const Control& control) {
   return json;
 }
 
-/// Throws Error(kInvalidArgument) with this field unless the control is whole.
+/// Reads a control. Throws Error(kInvalidArgument, field) unless the control is complete.
 template <typename Control, typename Json>
 void ReadControlJson(const Json& json, const std::string& field, Control* control) {
   bool is_whole = json.is_object();

@@ -15,7 +15,7 @@
 namespace choreo::authoring {
 namespace {
 
-/// The keys that hold the pose of each one, by index, of keys in order of time.
+/// For keys in order of time: maps each held key's index to those of the keys that hold its pose.
 std::map<size_t, std::vector<size_t>> HoldsOf(const DanceKeys& keys) {
   std::map<std::string, size_t> index_of;  // by place
   for (size_t i = 0; i < keys.places.size(); ++i) {
@@ -57,12 +57,13 @@ void EndHoldsBeforeKeys(double fps, DanceKeys* keys) {
   }
 }
 
-/// When a key stands, as it was written: "at 2 s", "at frame 60".
+/// A key's moment, as it was written: "at 2 s", "at frame 60".
 std::string WrittenMoment(const client::KeyPose& key) {
   return key.frame ? "at frame " + std::to_string(*key.frame) : "at " + Rounded(key.time_s) + " s";
 }
 
-/// The server would refuse keys that are too near, but only once the dance has begun.
+/// Throws for keys that are too near each other, which the server would refuse only once the dance
+/// has begun.
 void RequireApart(const DanceKeys& keys, double fps) {
   for (size_t i = 1; i < keys.poses.size(); ++i) {
     const client::KeyPose &before = keys.poses[i - 1], &key = keys.poses[i];

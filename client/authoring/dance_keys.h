@@ -9,20 +9,20 @@
 
 namespace choreo::authoring {
 
-/// What `--keyframes` says for a dance without keys.
+/// The value of `--keyframes` for a dance without keys.
 inline constexpr const char* kNoKeys = "none";
-/// Whether it asks for no keys. Throws Error(kInvalidArgument) if others are given,
-/// too.
+/// Whether `sources` request a dance without keys. Throws Error(kInvalidArgument) if they also name
+/// other sources.
 bool SaysNoKeys(const std::vector<std::string>& sources);
-/// The key files and motions in --keyframes.
+/// Returns the key files and motions among the sources of --keyframes.
 std::vector<std::string> KeySources(const std::vector<std::string>& sources);
 
 /// A dance's key poses in order of time, as sent.
 struct DanceKeys {
   std::vector<client::KeyPose> poses;
-  /// The origin of each, "keys.json:keyframes[1]" (ParseKeyFile in key_file.h).
+  /// Each key's origin, such as "keys.json:keyframes[1]" (ParseKeyFile in key_file.h).
   std::vector<std::string> places;
-  std::vector<client::Warning> warnings = {};  ///< about what ByTime changed
+  std::vector<client::Warning> warnings = {};  ///< about changes by ByTime
 };
 
 /// The length of a dance.
@@ -38,29 +38,31 @@ std::string DescribeAfterEnd(int64_t frame, const DanceLength& length);
 /// A key's frame at the model's rate.
 int64_t FrameOf(const client::KeyPose& key, double fps);
 
-/// Moves a key at second 30 of a dance of 30 seconds to its last frame, which it means. Throws
-/// Error(kInvalidArgument), whose field begins with `place`, for a later one.
+/// Moves a key at the very end of a dance, such as at second 30 of 30, to the last frame, which is
+/// what people mean. Throws Error(kInvalidArgument), whose field begins with `place`, for a later
+/// key.
 void FitIntoDance(const DanceLength& length, const std::string& place, client::KeyPose* key);
 
-/// Says that a hold, which lasted until `was`, ends at `now` because of a key; frames.
+/// Explains that the hold of the key `held` ends at frame `now` instead of `was` because of the key
+/// `key`.
 std::string DescribeHoldEnd(const std::string& held, int64_t now, int64_t was,
                             const std::string& key, int64_t key_frame, double fps);
 
-/// The id of the key whose pose this one holds; empty if it holds none.
+/// The id of the key whose pose the key at `index` holds; empty if it holds none.
 std::string HeldKey(const DanceKeys& keys, size_t index);
 
-/// Sorts keys by time for sending: an earlier key after a later one would come too late. A key that
-/// comes while another one is held ends that hold kWayFromHold before it; `warnings` says so.
+/// Sorts keys by time for sending: an earlier key sent after a later one would be too late. A key
+/// within the hold of another one ends that hold kWayFromHold earlier; `warnings` reports this.
 DanceKeys ByTime(DanceKeys keys, double fps);
 
 /// Reads key poses from sources (see ReadKeys in key_file.h) and fits each into the dance. Throws
-/// like ReadKeys, and Error(kInvalidArgument), whose field begins with the key's place, for a
+/// as ReadKeys does, and Error(kInvalidArgument), whose field begins with the key's place, for a
 /// duplicate id, and for keys closer than kMinKeyDistance.
 DanceKeys ReadDanceKeys(const std::vector<std::string>& sources, const DanceLength& length,
                         const Skeleton& skeleton, const Counts& counts = {});
 
-/// Translates an error about "keyframes[i]", numbered as sent, to the place where the key was
-/// written; returns other errors unchanged.
+/// Translates an error about "keyframes[i]", numbered as sent, so that it names the place where the
+/// key was written. Returns other errors unchanged.
 Error InTermsOf(const DanceKeys& keys, const Error& error);
 
 }  // namespace choreo::authoring

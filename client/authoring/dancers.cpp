@@ -30,7 +30,7 @@ std::string TextOf(const json& value, const std::string& field) {
   throw InvalidArgument(field, Shown(value) + " is no text");
 }
 
-/// The id becomes part of the names of files and nodes.
+/// Reads a dancer's id, which becomes part of the names of files and nodes.
 std::string IdOf(const json& value, const std::string& field) {
   const std::string id = TextOf(value, field);
   for (const char c : id) {
@@ -95,7 +95,7 @@ Dancer ReadDancer(const json& value, const std::string& field, size_t number,
   return dancer;
 }
 
-/// A dancer may face another by name, who is known once all are read.
+/// Turns dancers who face another one by name, once all dancers are known.
 void FaceEachOther(const json& list, const std::string& name, std::vector<Dancer>* dancers) {
   for (size_t i = 0; i < dancers->size(); ++i) {
     if (!list[i].contains("facing") || !list[i]["facing"].is_string()) continue;
@@ -117,7 +117,7 @@ Dancers ParseDancers(const std::string& text, const std::string& name,
                      const std::filesystem::path& folder) {
   const json file = ParseJson(text, name);
   const json& list = ListIn(file, name, "dancers");
-  // A project has the same members beside its own (project_file.h).
+  // A project has these members and others (project_file.h).
   if (!file.contains("studio")) {
     CheckFileMembers(file, name, {"dancers", "apart", "about"},
                      "a file of dancers has dancers, and perhaps apart and about");

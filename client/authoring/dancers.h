@@ -13,33 +13,34 @@ namespace choreo::authoring {
 
 inline constexpr int kMaxDancers = 64;
 inline constexpr double kMaxStageRadius = 1000;  ///< metres from its middle along x and z
-inline constexpr double kUsuallyApart = 0.2;  ///< metres: dancers do not brush against each other
+inline constexpr double kUsuallyApart = 0.2;     ///< metres, so that dancers do not touch
 
-/// One of several dancers. Members left open have the common value.
+/// One of several dancers. Empty members have the value common to all dancers.
 struct Dancer {
   std::string id;
-  Eigen::Vector2d place = {0, 0};  ///< x and z of the stage where the dance has its origin
-  double facing = 0;               ///< degrees that the dance is turned: 90 is along x
-  bool mirrored = false;           ///< left is right
+  Eigen::Vector2d place = {0, 0};  ///< x and z, on the stage, of the dance's origin
+  double facing = 0;               ///< degrees by which the dance is turned: 90 is along x
+  bool mirrored = false;           ///< swaps left and right
   std::optional<WrittenTime> after =
-      {};  ///< does everything this much later, and stands still before
+      {};  ///< the delay of the whole dance, before which the dancer stands still
   std::optional<uint64_t> seed = {};
   std::string style = {};
-  std::vector<std::string> keyframes = {};  ///< own keys, as ReadKeys takes them (key_file.h)
+  std::vector<std::string> keyframes = {};  ///< own keys: sources for ReadKeys (key_file.h)
 };
 
 /// The dancers of a file; docs/dancers.md describes it.
 struct Dancers {
   std::vector<Dancer> dancers;
-  double apart = 0;  ///< metres that stay between two bodies at least
+  double apart = 0;  ///< least distance between two bodies, metres
 };
 
-/// Reads dancers from their own file's JSON or from a project (project_file.h); paths of key files
-/// are relative to `folder`. Throws Error(kInvalidArgument) whose field is NAME:dancers[i].MEMBER,
-/// naming value and limit.
+/// Reads dancers from the JSON of a dancers' file or of a project (project_file.h). Paths of key
+/// files are relative to `folder`. Throws Error(kInvalidArgument) whose field is
+/// NAME:dancers[i].MEMBER, naming value and limit.
 Dancers ParseDancers(const std::string& text, const std::string& name,
                      const std::filesystem::path& folder);
-/// Reads the same from a file. Throws Error(kNotFound), too, if it does not exist.
+/// Reads dancers from a file. Throws as ParseDancers does, and Error(kNotFound) if the file does
+/// not exist.
 Dancers ReadDancers(const std::filesystem::path& path);
 
 }  // namespace choreo::authoring

@@ -43,7 +43,7 @@ class MemoryFile {
 /// is no ffmpeg or it fails.
 bool ConvertByFfmpeg(const std::filesystem::path& path, const std::string& filter,
                      const MemoryFile& wav, const MemoryFile& log) {
-  const std::string input = "file:" + path.string();  // a name, whatever it looks like
+  const std::string input = "file:" + path.string();  // so that ffmpeg reads no URL or option
   std::vector<std::string> words{"ffmpeg",     "-hide_banner", "-nostats",  "-loglevel",
                                  "level+info", "-nostdin",     "-i",        input,
                                  "-vn",        "-af",          filter,      "-f",
@@ -68,7 +68,7 @@ bool ConvertByFfmpeg(const std::filesystem::path& path, const std::string& filte
 /// ffmpeg's description of its input.
 struct FfmpegLog {
   int tracks = 0;          ///< of audio
-  bool restarts = false;   ///< the seconds that it wrote
+  bool restarts = false;   ///< whether its timestamps start again
   std::string error = {};  ///< the first one, or empty
 };
 
@@ -97,8 +97,8 @@ std::optional<DecodedAudio> DecodeByFfmpeg(const std::filesystem::path& path, do
   bool converted = ConvertByFfmpeg(path, "aresample=async=1:first_pts=0", wav, log);
   FfmpegLog report = ParseLog(log);
   if (converted && report.restarts) {
-    // The file's rate or channels change: ffmpeg begins again at second 0. A station's stream has
-    // no times.
+    // The file's rate or channels change, so ffmpeg started again at second 0. Converts again
+    // without timestamps, as for a station's stream, which has none.
     wav.Clear();
     log.Clear();
     converted = ConvertByFfmpeg(path, "anull", wav, log);
@@ -113,7 +113,7 @@ std::optional<DecodedAudio> DecodeByFfmpeg(const std::filesystem::path& path, do
   }
   try {
     DecodedAudio audio = DecodeAudioFile(wav.path(), seconds, start, more);
-    // ffmpeg cannot write the length into a pipe.
+    // ffmpeg cannot write the WAV's length into a pipe.
     audio.notes = {"read by ffmpeg"};
     if (!report.error.empty()) {
       audio.notes.push_back("ffmpeg finds it damaged, what is read may be a part: " + report.error);

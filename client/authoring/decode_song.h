@@ -6,8 +6,9 @@
 
 namespace choreo::authoring {
 
-/// Decodes any song: by DecodeAudioFile or, if that does not know the format and ffmpeg is
-/// installed, by ffmpeg. Fails like DecodeAudioFile. Writes notes to standard error.
+/// Decodes a song of any format: with DecodeAudioFile or, if it does not support the format and
+/// ffmpeg is installed, with ffmpeg. Throws as DecodeAudioFile does. Writes notes to standard
+/// error.
 DecodedAudio DecodeSong(const std::filesystem::path& path, double seconds, double start,
                         double more = 0);
 

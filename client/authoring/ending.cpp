@@ -12,7 +12,7 @@
 namespace choreo::authoring {
 namespace {
 
-constexpr double kHeld = 1;  // seconds, at least
+constexpr double kHeld = 1;  // least seconds of the hold
 constexpr double kHeldWithoutBeats = 1.5;
 constexpr double kShortest = 3;  // seconds of a dance that has an ending
 constexpr const char* kField = "--end";
@@ -24,7 +24,7 @@ double BeginOf(const std::vector<double>& beats, double last_s) {
   return last_s - kHeldWithoutBeats;
 }
 
-/// Where the dance leads by this frame.
+/// The place to which the dance leads by this frame.
 Eigen::Vector3d PlaceAt(int64_t frame, const ControlRequest& controls, double fps,
                         const DanceKeys& keys) {
   if (const auto& path = controls.root_path) {

@@ -28,8 +28,8 @@ double WidenFormation(const std::vector<MovingBody>& bodies,
                       const std::vector<Eigen::Vector3d>& places, double apart) {
   constexpr double kStep = 0.001;  // metres
   double factor = 1;
-  // The distance of bodies grows at most as fast as that of their places, so each step is
-  // necessary.
+  // The distance between bodies grows at most as fast as that between their places, so each step
+  // is necessary.
   for (double step = 1; step > 0;) {
     const std::vector<Eigen::Vector3d> moved = MovesOf(places, factor);
     step = 0;

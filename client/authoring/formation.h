@@ -14,42 +14,43 @@
 
 namespace choreo::authoring {
 
-/// The two bodies on a stage that come nearest to each other.
+/// The indices of the two bodies on a stage that come nearest to each other, and their distance.
 struct NearestPair {
   size_t one = 0, other = 0;
   BodyDistance distance = {};
 };
 
-/// Takes at least two dances. `places`: the offset of each from where it was made, metres.
+/// Finds the nearest pair of at least two bodies. `moved`: the offset of each from where its dance
+/// was made, metres.
 NearestPair FindNearest(const std::vector<MovingBody>& bodies,
                         const std::vector<Eigen::Vector3d>& moved);
 
-/// The least factor, from 1 on, by which to spread places about their middle so that bodies stay
-/// `apart`, metres, to a millimetre. No two places are the same.
+/// Returns the least factor, at least 1, by which to spread places about their middle so that
+/// bodies stay `apart` metres from each other, to a millimetre. Requires distinct places.
 double WidenFormation(const std::vector<MovingBody>& bodies,
                       const std::vector<Eigen::Vector3d>& places, double apart);
 
-/// The move of each body when places spread by `factor` about their middle.
+/// The offset of each body when places are spread by `factor` about their middle, metres.
 std::vector<Eigen::Vector3d> MovesOf(const std::vector<Eigen::Vector3d>& places, double factor);
 
-/// The delay in frames of a dancer (Dancer::after) in a dance of `frames`. Counts are those of the
-/// beats (seconds) at the music's beginning. Throws Error(kInvalidArgument, field) for counts
+/// Converts a dancer's delay (Dancer::after) in a dance of `frames` to frames. Reads counts with
+/// the beats (seconds) at the music's beginning. Throws Error(kInvalidArgument, field) for counts
 /// without beats, and for a delay beyond the dance's end.
 int64_t FramesLater(const std::optional<WrittenTime>& after, std::span<const double> beats,
                     double fps, int64_t frames, const std::string& field);
 
-/// A dance as performed by one of its dancers: mirrored, delayed by this many frames, turned and
-/// moved to that dancer's place.
+/// Returns a dance as performed by one of its dancers: mirrored if the dancer is, delayed by
+/// `later` frames, turned, and moved to the dancer's place.
 client::FinishedDance OnStage(const Skeleton& skeleton, const Dancer& dancer,
                               client::FinishedDance dance, int64_t later);
 
-/// How a formation became.
+/// The result of KeepApart.
 struct Formed {
-  double factor = 1;                        ///< the factor by which they spread about their middle
-  std::optional<NearestPair> nearest = {};  ///< of two dancers or more
+  double factor = 1;  ///< by which the dancers' places were spread about their middle
+  std::optional<NearestPair> nearest = {};  ///< none for a single dancer
 };
 
-/// Moves dancers on stage apart if they would come nearer than `apart`, metres.
+/// Moves dancers on stage apart if they would come nearer to each other than `apart`, metres.
 Formed KeepApart(const std::vector<Dancer>& dancers, double apart, const Skeleton& skeleton,
                  std::vector<client::FinishedDance>* dances);
 

@@ -27,7 +27,7 @@ class Place {
  public:
   explicit Place(const std::string& name) : name_(name) {}
 
-  /// Throws Error(kInvalidArgument) for a member that its object has already.
+  /// Follows the parser to its next event. Throws Error(kInvalidArgument) for a duplicate member.
   void Follow(json::parse_event_t event, const json& parsed) {
     switch (event) {
       case json::parse_event_t::object_start:
@@ -72,7 +72,7 @@ class Place {
   std::vector<Level> levels_;
 };
 
-/// The position, line and column, of the `byte`th character of a text, counted from 1.
+/// Describes the line and column of the `byte`th character of a text, counted from 1.
 std::string At(std::string_view text, size_t byte) {
   const std::string_view before = text.substr(0, byte == 0 ? 0 : byte - 1);
   const size_t line = before.rfind('\n');
@@ -80,7 +80,7 @@ std::string At(std::string_view text, size_t byte) {
          std::to_string(before.size() - (line == std::string_view::npos ? 0 : line + 1) + 1);
 }
 
-/// The word around that character, such as NaN; empty without one.
+/// The word around the `byte`th character of a text, such as NaN; empty if there is none.
 std::string WordAt(std::string_view text, size_t byte) {
   if (byte == 0 || byte > text.size()) return "";
   const auto is_other = [](unsigned char c) { return std::isalnum(c) == 0; };
@@ -91,7 +91,8 @@ std::string WordAt(std::string_view text, size_t byte) {
   return ", \"" + std::string(begin, end).substr(0, kMaxShownLength) + '"';
 }
 
-/// What is wrong with the text at that character, the last one that was read, and where.
+/// Describes what is wrong with a text at its `byte`th character, the last one read, and where it
+/// is.
 std::string DescribeBreak(std::string_view text, size_t byte) {
   if (byte > 0 && byte <= text.size() && (text[byte - 1] == '}' || text[byte - 1] == ']')) {
     const size_t before = text.substr(0, byte - 1).find_last_not_of(" \t\r\n");

@@ -12,10 +12,10 @@
 namespace choreo::authoring {
 namespace {
 
-constexpr double kJump = 0.1;  // metres: the least height above the floor that is one
+constexpr double kJump = 0.1;  // metres: a jump's least height above the floor
 
-/// Explains why a key in the air will stand, if it will: a key without a place stands on the floor.
-/// Keys without a height have that of the rest pose.
+/// Explains why a key in the air will be danced standing on the floor, as keys without a place are;
+/// empty for other keys. Keys without a height have that of the rest pose.
 std::string LostJump(const client::KeyPose& key, const Skeleton& skeleton) {
   const double height = key.pose.root_position.y();
   if (key.mask.root_position || height == skeleton.pelvis_height) return "";
@@ -38,7 +38,7 @@ std::vector<client::Warning> KeyFaults(const DanceKeys& keys, double fps,
   for (const client::KeyPose& key : keys.poses) poses.push_back(Timed(key, fps));
   std::vector<client::Warning> warnings = keys.warnings;
   for (const TimedFault& fault : DanceFaults(skeleton, poses)) {
-    // A held pose has the faults of its first key.
+    // A held pose has the faults of its first key, which are reported there.
     const bool is_held = !keys.places.empty() && IsHeld(keys.places[fault.pose]);
     const auto is_said = [&](const client::Warning& warning) {
       return warning.message.ends_with(": " + fault.message);
@@ -106,7 +106,7 @@ std::vector<client::Warning> KeyFaults(const client::KeyPose& key, double fps,
   poses.insert(place, timed);
   std::vector<client::Warning> warnings;
   for (const TimedFault& fault : DanceFaults(skeleton, poses)) {
-    // Ignores faults of other keys, except on the ways to and from this key.
+    // Ignores faults of other keys, except on the transitions to and from this key.
     const bool its_own = fault.pose == index;
     const bool way_from = fault.pose == index + 1 &&
                           fault.message.find("from \"" + key.id + "\"") != std::string::npos;

@@ -35,7 +35,7 @@ bool HasDegrees(const json& value) {
   return value.contains("joints") && value["joints"].is_object();
 }
 
-// The pose of a key that names a pose or gives only joints.
+// Parses the pose of a key that names a pose or gives only joints.
 KeyPose ParseNamed(const json& value, const std::string& field, const Skeleton& skeleton) {
   if (value.contains("pose")) {
     RefuseNumbers(value, field);
@@ -105,7 +105,7 @@ std::vector<KeyPose> ReadMotionKeys(const std::string& path, std::string_view ti
     KeyPose& key = keys.emplace_back();
     key.id = std::filesystem::path(path).stem().string() + "@" + std::string(item);
     key.pose = PoseAt(motion, at);
-    // A motion's rotations may have wound up through any number of turns.
+    // A motion's rotation vectors may contain any number of whole turns.
     MakeContinuous(key.pose, {{}, Eigen::Matrix3Xd::Zero(3, key.pose.rotations.cols())});
     key.time_s =
         from.size() == item.size()
@@ -196,7 +196,7 @@ std::filesystem::path FileOf(const std::string& source) {
   std::error_code error;
   if (std::filesystem::exists(source, error)) return source;
   const size_t last = source.rfind('@');
-  // The id after the file's name may contain an @, too.
+  // The id after the file's name may also contain "@".
   for (size_t end = last; end != std::string::npos && end > 0; end = source.rfind('@', end - 1)) {
     if (std::filesystem::is_regular_file(source.substr(0, end), error))
       return source.substr(0, end);

@@ -29,7 +29,7 @@ std::vector<double> NumbersOf(const json& value, const std::string& field) {
   return numbers;
 }
 
-/// The joints with this name: one, or a whole limb from hip or shoulder on.
+/// The joints with this name: one joint, or a whole limb from the hip or shoulder on.
 std::vector<int> Named(const std::string& name, const Skeleton& skeleton,
                        const std::string& field) {
   std::vector<int> roots;

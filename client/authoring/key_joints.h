@@ -5,17 +5,17 @@
 
 #include "client/choreo_client.h"
 
-/// Poses and joints in key files (key_file.h).
+/// Reads poses and joints of key files (key_file.h).
 namespace choreo::authoring {
 
-/// `pose`, a library pose by name, moved to `place` and `facing`. Throws Error(kInvalidArgument)
-/// whose field is FIELD.pose, .place or .facing.
+/// Reads the member `pose`, the name of a library pose, and moves the pose to `place` and `facing`.
+/// Throws Error(kInvalidArgument) whose field is FIELD.pose, .place or .facing.
 client::KeyPose ReadNamedPose(const nlohmann::json& value, const std::string& field,
                               const Skeleton& skeleton);
 
-/// `joints` of the key `value`: a list of names limits the key's pose to these; an object sets
-/// joints of `key`'s pose in degrees (motion/joint_angles.h). Throws Error(kInvalidArgument) whose
-/// field is FIELD.joints, or FIELD.joints.NAME.
+/// Reads the member `joints` of a key. A list of names limits the key's pose to these joints. An
+/// object sets joints of the key's pose in degrees (motion/joint_angles.h). Throws
+/// Error(kInvalidArgument) whose field is FIELD.joints, or FIELD.joints.NAME.
 void ReadJoints(const nlohmann::json& joints, const std::string& field, const Skeleton& skeleton,
                 client::KeyPose* key);
 

@@ -59,7 +59,7 @@ Eigen::Matrix3Xd Rotations(const json& value, const std::string& field, int join
   return out;
 }
 
-// Numbers of one list, or of a list of lists.
+// Returns the numbers of a list, or of a list of lists.
 std::vector<double> Flatten(const json& value, const std::string& field) {
   std::vector<double> out;
   const auto at = [](size_t index) { return "[" + std::to_string(index) + "]"; };
@@ -75,7 +75,7 @@ std::vector<double> Flatten(const json& value, const std::string& field) {
   return out;
 }
 
-// A pose under the names that SMPL motion files give it, as one frame of such a file.
+// Reads a pose written like one frame of an SMPL motion file, under that format's names.
 KeyPose ReadSmplKey(const json& value, const std::string& field, const std::string& poses,
                     const std::string& trans, const Skeleton& skeleton) {
   KeyPose key;
@@ -86,7 +86,7 @@ KeyPose ReadSmplKey(const json& value, const std::string& field, const std::stri
       throw InvalidArgument(field + "." + name, Shown(value[name]) + " is no list");
     }
     std::vector<double> numbers = Flatten(value[name], field + "." + name);
-    // Checks the raw numbers: turning the world into ours would hide an absurd angle.
+    // Checks the numbers as given: converting them to our axes would hide an absurd angle.
     if (name == poses && numbers.size() % 3 == 0) {
       CheckAngles(Eigen::Map<const Eigen::Matrix3Xd>(numbers.data(), 3, std::ssize(numbers) / 3),
                   field + "." + name);

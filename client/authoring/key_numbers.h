@@ -5,15 +5,16 @@
 
 #include "client/choreo_client.h"
 
-/// Keys of a key file (key_file.h) with poses in numbers: rotations and root_position, or as in
-/// SMPL motion files. `value` is the key, `field` its name. Throw Error(kInvalidArgument) whose
-/// field is FIELD.MEMBER.
+/// Reads keys of a key file (key_file.h) whose poses are given in numbers: as rotations and
+/// root_position, or as in SMPL motion files. `value` is the key, `field` its name. Functions throw
+/// Error(kInvalidArgument) whose field is FIELD.MEMBER.
 namespace choreo::authoring {
 
 bool HasNumbers(const nlohmann::json& value);
-/// Throws if it has numbers besides `pose`.
+/// Throws for a key that has numbers besides `pose`.
 void RefuseNumbers(const nlohmann::json& value, const std::string& field);
-/// The pose under one of its three names; the mask says whether it fixes the dancer's place.
+/// Reads the pose, under any of its three names. The mask states whether the key fixes the dancer's
+/// place.
 client::KeyPose ReadNumbers(const nlohmann::json& value, const std::string& field,
                             const Skeleton& skeleton);
 

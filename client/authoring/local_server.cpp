@@ -25,13 +25,13 @@ constexpr std::chrono::seconds kStartLimit{120};
 constexpr std::chrono::seconds kStopLimit{10};
 constexpr const char* kListens = "choreod listens on ";
 
-/// In the child: becomes the server. Does not return.
+/// Turns the child process into the server. Does not return.
 [[noreturn]] void Become(const std::filesystem::path& program, const std::string& listen,
                          const std::string& model, int to, pid_t parent) {
-  // The server ends with us in any case. The parent may have died before this line.
+  // Ends the server when the parent dies, which may have happened before this line.
   prctl(PR_SET_PDEATHSIG, SIGTERM);
   if (getppid() != parent) _exit(127);
-  setpgid(0, 0);  // a terminal's Ctrl-C goes to us, and we stop the server in order
+  setpgid(0, 0);  // a terminal's Ctrl-C reaches only the parent, which stops the server in order
   dup2(to, STDOUT_FILENO);
   execl(program.c_str(), "choreod", "--listen", listen.c_str(), "--log-level", "warning",
         "--log-format", "text", "--drain-seconds", "0", model.empty() ? nullptr : "--model",

@@ -8,15 +8,16 @@
 
 namespace choreo::authoring {
 
-/// Our own choreod: started on a free port of this machine, and stopped with this object, or when
-/// this process dies.
+/// A choreod of this process's own, on a free port of this machine. It stops when this object is
+/// destroyed or this process dies.
 class LocalServer {
  public:
-  /// The choreod beside this program, if any.
+  /// The path of the choreod beside this program; empty if there is none.
   static std::filesystem::path Program();
-  /// Starts the choreod beside this program and returns when it listens. `model`: a shipped one, to
-  /// serve alone; any other name: the default ones. Throws Error(kNotFound) if there is none, and
-  /// Error(kUnavailable) if it does not listen within two minutes; its stderr says why.
+  /// Starts the choreod beside this program and waits until it listens. `model`: the name of a
+  /// shipped model, to serve only that one; any other name: the default models. Throws
+  /// Error(kNotFound) if there is no choreod, and Error(kUnavailable) if it does not listen within
+  /// two minutes; its stderr gives the reason.
   static std::unique_ptr<LocalServer> Start(const std::string& model);
   /// `listen`: HOST:PORT; port 0 takes a free one.
   explicit LocalServer(const std::filesystem::path& program,
@@ -27,11 +28,12 @@ class LocalServer {
 
   const std::string& address() const { return address_; }
   pid_t process() const { return process_; }
-  /// Throws Error(kUnavailable) saying how it ended, if it has.
+  /// Throws Error(kUnavailable) if the server has ended. The message explains how.
   void RequireRunning();
 
  private:
-  /// Reads the line in which the server reports its address; empty if it ends or takes too long.
+  /// Reads the line in which the server reports its address. Returns an empty string if the server
+  /// ends or takes too long.
   static std::string ReadAddress(int from);
   void Stop() noexcept;
 

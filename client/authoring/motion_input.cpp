@@ -11,12 +11,12 @@ namespace {
 
 void Say(const std::filesystem::path& path, const std::vector<std::string>& notes,
          bool of_convert) {
-  static std::mutex mutex;  // the studio's pages read files at the same time
+  static std::mutex mutex;  // the studio's pages read files concurrently
   static std::set<std::string> shown;
   const std::lock_guard lock(mutex);
   for (const std::string& note : notes) {
     std::string line = "note: " + path.string() + ": " + note;
-    // Searches after the path, which may contain anything.
+    // Searches after the path, which may contain " --".
     const size_t option =
         of_convert ? std::string::npos : line.find(" --", line.size() - note.size());
     if (option != std::string::npos) line.insert(option, " choreo convert");

@@ -14,11 +14,11 @@
 
 namespace choreo::authoring {
 
-/// A song for the commands.
+/// A decoded and analysed song.
 struct Music {
-  DecodedAudio audio;                 ///< from `start` on, of which only its beginning may be kept
+  DecodedAudio audio;                 ///< from `start` on; possibly only the beginning is kept
   std::vector<float> mono;            ///< at 22 050 Hz
-  std::vector<float> onset_strength;  ///< that the beats were found in
+  std::vector<float> onset_strength;  ///< from which the beats were found
   BeatTrack track;
   std::vector<Passage> passages;  ///< repeats
   std::vector<float> energies;    ///< MusicAnalysis::energies
@@ -26,35 +26,35 @@ struct Music {
 };
 
 /// Decodes a song from second `start` on: all of it, or `seconds` and `more` (DecodeSong). Throws
-/// what that throws; Error(kInvalidArgument) whose field is "song_start" for a start after its end.
-/// Writes notes to standard error.
+/// as DecodeSong does, and Error(kInvalidArgument) whose field is "song_start" for a start after
+/// the song's end. Writes notes to standard error.
 DecodedAudio ReadSong(const std::filesystem::path& path, double seconds, double start,
                       double more = 0);
 
-/// Decodes a song and finds its beats. All of it is heard, as far as the limits allow, so that
-/// beats are the same however much is danced to; samples are kept for a dance of `seconds`. With
-/// `start` the song begins there. Throws what ReadSong and BeatsAsAsked throw.
+/// Decodes a song from second `start` on and finds its beats. Analyses all of it, as far as the
+/// limits allow, so that the beats do not depend on the dance's length. Keeps the samples for a
+/// dance of `seconds`. Throws as ReadSong and BeatsAsAsked do.
 Music ReadMusic(const std::filesystem::path& path,
                 double seconds = std::numeric_limits<double>::infinity(), double start = 0,
                 const BeatOptions& beats = {});
 
-/// Keeps what is heard in the first `seconds`.
+/// Discards all data after the first `seconds`.
 void KeepFirst(double seconds, Music* music);
 
 /// The counts of the whole song.
 Counts CountsOf(const Music& music);
 
-/// Times of the beats before `seconds`, as DanceConfig::music_beats.
+/// Times of the beats before `seconds`, for DanceConfig::music_beats.
 std::vector<double> BeatsBefore(const Music& music, double seconds);
 
-/// Sets these beats with their downbeats, the passages before `seconds`, energies and the id. Keeps
-/// beats that the configuration already has, as far as they are before `seconds`.
+/// Sets the configuration's beats, downbeats, passages, energies and music id, for a dance of
+/// `seconds`. Keeps beats that the configuration already has, as far as they are before `seconds`.
 void ConfigureMusic(const Music& music, double seconds, client::DanceConfig* config);
 
-/// The samples to send for a dance of `seconds`: the song's beginning.
+/// Returns the samples to send for a dance of `seconds`: the song's beginning.
 client::Audio AudioFor(const DecodedAudio& song, double seconds);
 
-/// The length of samples.
+/// The duration of the samples, seconds.
 double Seconds(const client::Audio& audio);
 
 }  // namespace choreo::authoring

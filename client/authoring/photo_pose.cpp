@@ -42,7 +42,7 @@ const json& LandmarkList(const json& file, const std::string& name) {
   throw InvalidArgument(name + ":landmarks", "is missing, and the file is no list");
 }
 
-/// Numbers of SMPL files, by their names.
+/// The arrays of an SMPL file, by name.
 class Numbers {
  public:
   Numbers(const std::filesystem::path& path) : name_(path.string()) {
@@ -76,14 +76,14 @@ class Numbers {
   json json_;
 };
 
-/// Reads axis-angle vectors or matrices; `joints` may be anything up to `most`.
+/// Reads axis-angle vectors or matrices of `least` to `most` joints.
 std::vector<Eigen::Matrix3d> Rotations(const std::vector<double>& numbers, int least, int most,
                                        const std::string& field) {
   const auto count = static_cast<int>(numbers.size());
   const auto fits = [&](int width) {
     return count % width == 0 && count / width >= least && count / width <= most;
   };
-  // 216 numbers are 24 matrices: no SMPL body has that many vectors.
+  // 216 numbers are 24 matrices, not 72 vectors: no SMPL body has that many joints.
   const bool matrices = fits(9);
   if (!matrices && !fits(3)) {
     throw InvalidArgument(field, std::to_string(count) + " numbers, must be " +
@@ -168,7 +168,7 @@ Pose ReadSmplPose(const std::filesystem::path& path, const Skeleton& skeleton) {
   Pose pose = RestPose(smpl);
   for (int joint = 0; joint < smpl.joints(); ++joint)
     pose.rotations.col(joint) = LogMap(rotations[static_cast<size_t>(joint)]);
-  // The camera's y points down and its z away from it.
+  // The camera's y axis points down and its z axis away from the camera.
   pose.rotations.col(0) = LogMap(Eigen::Vector3d(1, -1, -1).asDiagonal() * rotations.front());
   pose.root_position.y() -= HeightAboveFloor(smpl, pose);
   return Retarget(smpl, pose, skeleton);

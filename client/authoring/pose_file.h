@@ -7,18 +7,18 @@
 
 namespace choreo::authoring {
 
-/// A pose in the library's format: a key file (key_file.h) with one key, which describes itself.
+/// A pose in the library's format: a key file (key_file.h) with one key, a description and tags.
 struct DescribedPose {
   client::KeyPose key;
   std::string description;
   std::vector<std::string> tags;
 };
 
-/// The file's text: metres and radians to a tenth of a thousandth, one line per joint.
+/// The text of a pose file: metres and radians to 4 decimals, one line per joint.
 std::string PoseFileText(const DescribedPose& pose, const Skeleton& skeleton);
 
-/// Reads one. `name` is the file's; fails like ParseKeyFile, also with the fields NAME:description
-/// and NAME:tags.
+/// Parses a pose file called `name`. Throws as ParseKeyFile does, also with the fields
+/// NAME:description and NAME:tags.
 DescribedPose ParsePoseFile(const std::string& text, const std::string& name,
                             const Skeleton& skeleton);
 

@@ -8,9 +8,9 @@
 
 namespace choreo::authoring {
 
-/// A shipped key pose (client/poses/*.json), made by hand for this project. Touches the floor
-/// unless it is a jump, faces +Z, around the origin; on SMPL's 24 joints, or those that it was
-/// retargeted to.
+/// A shipped key pose (client/poses/*.json), made by hand for this project. It is around the
+/// origin, faces +Z and, unless it is a jump, touches the floor. It has SMPL's 24 joints, or those
+/// of the skeleton to which it was retargeted.
 struct LibraryPose {
   std::string id;
   std::string description;
@@ -18,22 +18,24 @@ struct LibraryPose {
   Pose pose;
 };
 
-/// The tags of poses: standing and travelling on the feet, jump in the air, floor on hands, knees
-/// or the seat: each pose has exactly one of these, first. ending: no dance begins so.
+/// The tags of poses. The first tag of each pose is one of "standing" and "travelling" (on the
+/// feet), "jump" (in the air) and "floor" (on hands, knees or the seat); no other tag is one of
+/// these. No dance begins with a pose tagged "ending".
 const std::vector<std::string>& PoseTags();
 
-/// All poses, by id. They are part of the program: no file is read.
+/// All poses, sorted by id. They are compiled into the program.
 const std::vector<LibraryPose>& PoseLibrary();
 
 bool IsEnding(const LibraryPose& pose);
 
-/// All poses on this skeleton (fit/retarget.h). Throws Error(kInvalidArgument) whose field is
-/// "keyframes" if it lacks joints for retargeting.
+/// Retargets all poses to this skeleton (fit/retarget.h). Throws Error(kInvalidArgument) whose
+/// field is "keyframes" if it lacks joints for retargeting.
 std::vector<LibraryPose> PosesFor(const Skeleton& skeleton);
-/// Those that keys are drawn from, all that stand or travel. Throws the same.
+/// Returns the poses from which keys are drawn, all that are standing or travelling, retargeted to
+/// this skeleton. Throws as PosesFor does.
 std::vector<LibraryPose> PosesToDance(const Skeleton& skeleton);
 
-/// Throws Error(kNotFound) naming the existing ones.
+/// Finds a pose by its id. Throws Error(kNotFound), naming the existing ids, if there is none.
 const LibraryPose& FindLibraryPose(const std::string& id);
 
 }  // namespace choreo::authoring

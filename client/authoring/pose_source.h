@@ -12,13 +12,14 @@ namespace choreo::authoring {
 struct NamedPose {
   client::KeyPose key;
   bool has_place = true;  ///< false for library poses, which are around the origin, facing +Z
-  /// Keys that hold it, if given by a key file, with times relative to its own.
+  /// Keys that hold the pose, if a key file gives any, with times relative to the key's.
   std::vector<client::KeyPose> held = {};
 };
 
-/// A pose by its name in the library, or a source for ReadKeys (key_file.h): a key file with one
-/// pose, KEYS.json@ID, or MOTION@SECOND. Errors as theirs; Error(kInvalidArgument) for a source
-/// with several poses. `counts`: those of the music, for times in counts.
+/// Reads a pose by its name in the library, or from a source for ReadKeys (key_file.h): a key file
+/// with one pose, KEYS.json@ID, or MOTION@SECOND. `counts`: those of the music, for times in
+/// counts. Throws as FindLibraryPose and ReadKeys do, and Error(kInvalidArgument) for a source with
+/// several poses.
 NamedPose ReadPose(const std::string& source, const Skeleton& skeleton, const Counts& counts = {});
 
 }  // namespace choreo::authoring

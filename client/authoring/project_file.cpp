@@ -39,7 +39,8 @@ bool IsCount(const json& value) {
          value.get<uint64_t>() <= kMaxBeatsInBar;
 }
 
-/// Takes [[0.52, 1], [1.02, 2], ...]: seconds and counts, which go on over several bars.
+/// Reads beats, [[0.52, 1], [1.02, 2], ...]: seconds and counts. Counts may continue over several
+/// bars.
 void TakeBeats(const json& list, const std::string& field, Project* project) {
   if (!list.is_array()) throw InvalidArgument(field, Shown(list) + " is no list");
   std::vector<double>& out = project->beats;
@@ -62,7 +63,8 @@ const json& Object(const json& value, const std::string& field) {
   return value;
 }
 
-/// Velocity factors as older projects have them. None where all parts have the usual factor.
+/// Converts the velocity factors of older projects. Returns null if all parts have the usual
+/// factor.
 json FactorsIn(const json& parts, const std::string& field) {
   json out;
   bool as_usual = true;
@@ -105,7 +107,7 @@ void TakeControls(const json& file, const std::string& name, std::span<const Con
   }
 }
 
-/// Markers are for people.
+/// Reads markers, which are only for people.
 std::vector<Marker> MarkersIn(const json& list, const std::string& field) {
   if (!list.is_array()) throw InvalidArgument(field, Shown(list) + " is no list");
   std::vector<Marker> markers;
@@ -151,7 +153,7 @@ std::string Readable(const nlohmann::ordered_json& value, const std::string& ind
 Project ParseProject(const json& file, const std::string& name, std::span<const ControlRow> rows) {
   const bool has_no_keys = file.is_object() && file.contains("keyframes") &&
                            file["keyframes"] == nlohmann::json::array();
-  if (!has_no_keys) ListIn(file, name, "keyframes");  // which says what else the file may be
+  if (!has_no_keys) ListIn(file, name, "keyframes");  // its error suggests other kinds of file
   if (!file.contains("studio"))
     throw InvalidArgument(
         name + ":studio",

@@ -19,23 +19,23 @@ struct Marker {
   std::string name;
 };
 
-/// A studio project without its keys, which are read like a key file's (key_file.h).
+/// A studio project without its keys, which ReadKeys reads like those of a key file (key_file.h).
 struct Project : DanceManner {
-  std::string song = {};  ///< the file's name; empty: it has none
+  std::string song = {};  ///< the file's name; empty: no song
   std::optional<double> seconds = {};
   std::optional<uint64_t> seed = {};
-  /// The song's, seconds; none: those that are found. Downbeats are beats, too.
+  /// The song's beats and downbeats, seconds; empty: to be found. Each downbeat is also a beat.
   std::vector<double> beats = {}, downbeats = {};
   std::vector<double> ones = {};  ///< downbeats that begin an eight
-  int bar = 0;                    ///< beats in it
-  std::vector<int> counts = {};   ///< of each beat
+  int bar = 0;                    ///< number of beats in a bar
+  std::vector<int> counts = {};   ///< the count of each beat
   std::vector<Marker> markers = {};
   WrittenControls controls = {};
-  bool has_keys = false;     ///< which ReadDanceKeys reads
-  bool has_dancers = false;  ///< several dancers, for ReadDancers (dancers.h)
+  bool has_keys = false;     ///< whether there are keys for ReadDanceKeys
+  bool has_dancers = false;  ///< whether there are several dancers, for ReadDancers (dancers.h)
 };
 
-/// Reads a project: JSON with `studio` (1), `song`, `seconds`, `seed`, `style`, `music_dynamics`,
+/// Parses a project: JSON with `studio` (1), `song`, `seconds`, `seed`, `style`, `music_dynamics`,
 /// `variation`, `beats` (each with its second and count), `bar` (its number of beats), `controls`
 /// (by their names, with the fields of the API's messages), `path` (as in a path file), `lively`
 /// (the velocity factors of parts, in older projects), `markers` (each with `time` and `name`; no
@@ -44,12 +44,12 @@ struct Project : DanceManner {
 Project ParseProject(const nlohmann::json& file, const std::string& name,
                      std::span<const ControlRow> rows = kControls);
 
-/// The same from a file; its song's path is relative to it. Throws Error(kNotFound) if the project
-/// cannot be opened. Does not check that the song exists.
+/// Reads a project from a file, to which the song's path is relative. Throws as ParseProject does,
+/// and Error(kNotFound) if the project cannot be opened. Does not check that the song exists.
 Project ReadProject(const std::filesystem::path& path);
 
-/// A project's text as people read it: short lists and objects, such as vectors and markers, have
-/// a line each.
+/// Formats a project for people: short lists and objects, such as vectors and markers, have a line
+/// each.
 std::string ProjectText(const nlohmann::ordered_json& project);
 
 }  // namespace choreo::authoring

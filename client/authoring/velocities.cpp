@@ -37,12 +37,12 @@ std::string Limits(bool speeds) {
   return text.str();
 }
 
-// Written so that NaN fails too.
+// Written so that NaN also fails.
 bool IsWithinLimits(double value, bool speeds) {
   return value >= 0 && value <= (speeds ? kMaxSpeed : kMaxFactor);
 }
 
-/// Collects the values asked for, part by part.
+/// Collects the requested values, part by part.
 class Asked {
  public:
   Asked(double fps, const Counts& counts) : fps_(fps), counts_(counts) {}
@@ -62,7 +62,7 @@ class Asked {
     }
   }
 
-  /// PART=VALUE
+  /// Adds a source of the form PART=VALUE.
   void AddConstant(const std::string& source) {
     const size_t equals = source.find('=');
     const std::string name = source.substr(0, equals);

@@ -11,12 +11,12 @@ namespace choreo::authoring {
 /// Whether a source is a file.
 bool IsVelocityFile(const std::string& source);
 
-/// Velocity factors of body parts: sources as for `choreo dance --velocity` (docs/song.md), of
-/// which one may be a file; multipliers and centimetres exclude each other. Interpolates between a
-/// file's points and holds the nearest outside. `reference`: what multipliers refer to; empty: the
-/// model's first. Models run at `fps`.
-/// `counts`: those of the music, for times in counts. `usual`: what is asked for parts that no
-/// source names; its points give way to a file's.
+/// Reads velocity factors of body parts. `sources`: as for `choreo dance --velocity`
+/// (docs/song.md). One of them may be a file; multipliers and centimetres exclude each other.
+/// Interpolates between a file's points and holds the nearest value outside. `reference`: the
+/// velocity reference of multipliers; empty: the model's first. `fps`: the model's. `counts`: those
+/// of the music, for times in counts. `usual`: the request for parts that no source names; a file's
+/// points replace its points.
 ///
 /// Throws Error(kInvalidArgument) whose field is "velocity_factors", "velocity_factors.reference"
 /// or NAME:factors[i].MEMBER, naming value and limit; Error(kNotFound) for a missing file.

@@ -15,7 +15,7 @@ bool Has(const client::ModelDescription& model, const std::string& control) {
   return std::ranges::find(model.controls, control) != model.controls.end();
 }
 
-/// Whether a project has what a path file has, not the API's message.
+/// Whether a project's path has the form of a path file instead of the API's message.
 bool HasPoints(const nlohmann::json& path) { return !path.contains("frames"); }
 
 ControlRequest::RootPath ReadPath(const nlohmann::json& file, const std::string& name, double fps,
@@ -45,13 +45,13 @@ ControlRequest::RootPath ReadPath(const nlohmann::json& file, const std::string&
   return path;
 }
 
-/// The place in a path file of a field of the API's message.
+/// The place in a path file that corresponds to a field of the API's message.
 std::string PlaceInFile(const std::string& name, std::string_view field) {
   const size_t bracket = field.find('[');
   size_t index = 0;
   if (bracket != std::string_view::npos)
     std::from_chars(field.data() + bracket + 1, field.data() + field.size(), index);
-  // points[3] is z of the second point.
+  // points[3] is the z of the second point.
   const bool two_a_point = field.starts_with("points[");
   const char* member = field.starts_with("heights") ? ".y"
                        : !two_a_point               ? ""
@@ -149,7 +149,7 @@ std::string WrittenControls::PlaceOf(const std::string& control, std::string_vie
 }
 
 Error WrittenControls::InTermsOf(const Error& error) const {
-  // The command sends one message: controls[0] of a stream, controls of a transition.
+  // Commands send one message of controls: controls[0] of a stream, or controls of a transition.
   std::string_view field = error.field();
   for (const std::string_view prefix : {"controls[0].", "controls."}) {
     if (!field.starts_with(prefix)) continue;

@@ -14,28 +14,27 @@
 #include "client/choreo_client.h"
 #include "model/motion/controls.h"
 
-/// The controls of a dance as people write them down.
+/// The controls of a dance as people write them, in options, files and projects.
 namespace choreo::authoring {
 
-/// A path file, JSON, as docs/song.md describes it; times up to an hour. A smooth curve leads
-/// through its points. Models run at `fps`. `counts`: those of the music, for times in
-/// counts.
+/// Parses a path file, JSON, as described in docs/song.md, with times up to an hour. A smooth curve
+/// leads through its points. `fps`: the model's. `counts`: those of the music, for times in counts.
 ///
 /// Throws Error(kInvalidArgument) whose field is NAME:points[i].MEMBER, naming value and limit.
 ControlRequest::RootPath ParsePathFile(std::string_view text, const std::string& name, double fps,
                                        const Counts& counts = {});
 
-/// One control: what its option says, or else a project.
+/// One control, as written in its option or else in a project.
 struct WrittenControl {
-  std::vector<std::string> sources = {};  ///< a file; velocities: as ReadVelocities takes them
-  std::string reference = {};             ///< of velocities, likewise
-  nlohmann::json project = {};            ///< as ControlJson has it, or what a path file has
-  std::string project_name = {};          ///< its name in errors
+  std::vector<std::string> sources = {};  ///< a file; for velocities: sources of ReadVelocities
+  std::string reference = {};             ///< of ReadVelocities
+  nlohmann::json project = {};            ///< from ControlJson, or the content of a path file
+  std::string project_name = {};          ///< the name of `project` in errors
 
   bool IsGiven() const { return !sources.empty() || !project.is_null() || !reference.empty(); }
 };
 
-/// Read what is written of a control. Some have a form that is easier to write than their fields.
+/// Reads a written control. Some controls have a form that is easier to write than their fields.
 void ReadWritten(const WrittenControl& written, double fps, const Counts& counts,
                  ControlRequest::RootPath* path);
 void ReadWritten(const WrittenControl& written, double fps, const Counts& counts,
@@ -49,20 +48,21 @@ void ReadWritten(const WrittenControl& written, double /*fps*/, const Counts& /*
   ReadControlJson(ParseJson(ReadText(file, "control's file"), file), file, control);
 }
 
-/// The controls of every dance. Errors name the place in a file, or a control as the API does.
+/// All controls of a dance, as written. Errors name the place in a file, or a control as the API
+/// does.
 class WrittenControls {
  public:
-  /// By the control's name in kControls.
+  /// The written control, by its name in kControls.
   WrittenControl& operator[](std::string_view control) { return controls_[std::string(control)]; }
 
-  /// Adds a project's settings that these options do not give.
+  /// Adds the project's controls that the options do not give.
   void Follow(const WrittenControls& project);
-  /// What the option of a row of kControls says.
+  /// The values of the option of this row of kControls.
   const std::vector<std::string>& SourcesOf(size_t row) const;
   bool IsOption(size_t row) const { return !SourcesOf(row).empty(); }
-  /// Throws Error as ParsePathFile and ReadVelocities do, Error(kNotFound) for a file that is not
-  /// there, and Error(kInvalidArgument) for a control that the model does not have, naming those of
-  /// the server that do.
+  /// Reads the controls. Throws as ParsePathFile and ReadVelocities do, Error(kNotFound) for a
+  /// missing file, and Error(kInvalidArgument) for a control that the model lacks, naming the
+  /// server's models that have it.
   template <typename Request = ControlRequest>
   Request Read(const client::ModelDescription& model, const client::ServerDescription& server,
                const Counts& counts = {}, std::span<const ControlRow> rows = kControls) const {
@@ -78,11 +78,13 @@ class WrittenControls {
     return request;
   }
   /// Throws Error(kInvalidArgument) naming the first point of a control that begins after the end
-  /// of a dance, which it is not meant for; of those given here alone.
+  /// of the dance, and so was written for another one. Checks only the controls given here.
   void RequireBegun(const ControlRequest& controls, const DanceLength& length) const;
-  /// Translates an error about sent controls to the written ones; returns others unchanged.
+  /// Translates an error about sent controls so that it names the written ones. Returns other
+  /// errors unchanged.
   Error InTermsOf(const Error& error) const;
-  /// How errors call a field of a control, such as "points[3]"; "": the control.
+  /// The name, in errors, of a control's field such as "points[3]"; an empty field is the control
+  /// itself.
   std::string PlaceOf(const std::string& control, std::string_view field) const;
 
  private:
