@@ -1,7 +1,7 @@
-// Calls of gRPC's as what is awaited. Whoever stops reading, or aborts the signal, ends them on the server too.
+// Wraps gRPC calls as promises and async generators. Stopping to read, or aborting the signal, also ends the call on the server.
 import { ChoreoError } from './error.js';
 
-/** Has `signal` cancel a call. What this returns takes that back. */
+/** Makes `signal` cancel a call. Returns a function that undoes this. */
 function cancelOn(signal, call) {
   const cancel = () => call.cancel();
   signal.addEventListener('abort', cancel);
@@ -9,7 +9,7 @@ function cancelOn(signal, call) {
   return () => signal.removeEventListener('abort', cancel);
 }
 
-/** The one answer of a call that `begin(callback)` begins. */
+/** Returns the only answer of the call that `begin(callback)` starts. */
 export async function answerOf(begin, signal) {
   let leave;
   try {
@@ -21,7 +21,7 @@ export async function answerOf(begin, signal) {
   }
 }
 
-/** Yields the answers of a call. `find(violation)`: what was sent that an error is about, as ChoreoError.locate wants it. */
+/** Yields the answers of a call. `find(violation)`: finds the sent message that an error is about, for ChoreoError.locate. */
 export async function* answersOf(call, signal, find) {
   const leave = cancelOn(signal, call);
   try {

@@ -1,11 +1,11 @@
-// Where servers count the joints of a pose, callers count the numbers that they sent.
+// Translates fields in errors: servers count the joints of a pose, whereas callers count the numbers that they sent.
 
-/** Numbers of a rotation, by the encoding of its pose. */
+/** The count of numbers in a rotation, by the encoding of its pose. */
 const widths = { ROTATION_ENCODING_QUATERNION: 4, 2: 4, ROTATION_ENCODING_MATRIX: 9, 3: 9 };
 
 /**
- * What to say of a server's `field` in a message that was sent as `request`: {field, joint}. "keyframe.pose.rotations[16]" is of joint 16, whose
- * first number is "keyframe.pose.rotations[48]".
+ * Translates a server's `field` in a message that was sent as `request` to {field, joint}. "keyframe.pose.rotations[16]" is joint 16, whose first
+ * number is "keyframe.pose.rotations[48]".
  */
 export function asSent(field, request) {
   const [, path, joint] = /^(.+)\.rotations\[(\d+)\]$/.exec(field) ?? [];

@@ -1,9 +1,9 @@
-// The options of one call, checked: gRPC throws what it cannot use of them from a timer, where no caller can catch it.
+// Checks the options of one call: gRPC would throw for unusable ones from a timer, where no caller can catch the error.
 import { invalid } from './error.js';
 import { hint, quoted } from './words.js';
 
-const mostAhead = 1e8 * 3600e3; // milliseconds: gRPC says deadlines as hours of 8 digits
-const firstOfOurs = Date.UTC(2000); // an earlier number was meant as milliseconds from now
+const mostAhead = 1e8 * 3600e3; // milliseconds: gRPC writes deadlines in hours of at most 8 digits
+const firstOfOurs = Date.UTC(2000); // an earlier number was probably meant as milliseconds from now
 
 function aFunction(name) {
   return (value) => {
@@ -31,7 +31,7 @@ const checks = {
   onRejected: aFunction('onRejected'),
 };
 
-/** Those of `given` that are set. Throws ChoreoError, naming the option, for those that are none of `names`, or cannot be used. */
+/** Returns the options in `given` that are set. Throws ChoreoError, naming the option, for options not in `names` and for unusable ones. */
 export function checkCall(given = {}, names = ['signal', 'deadline']) {
   if (typeof given !== 'object' || given === null) throw invalid('options', `${quoted(given)} is no object {${names.join(', ')}}`);
   const options = {};

@@ -1,11 +1,11 @@
-// Whether a request is one of the API: protobufjs drops or bends what it does not know. Here the descriptors say what there is.
+// Checks requests against the API's descriptors, because protobufjs silently drops or converts invalid fields.
 import { types } from 'node:util';
 import protobuf from 'protobufjs';
 import { invalid } from './error.js';
 import { hint, quoted } from './words.js';
 import { api } from './protos.js';
 
-/** Ranges of whole numbers. */
+/** Ranges of integer types. */
 const ranges = {
   int32: [-(2n ** 31n), 2n ** 31n - 1n],
   uint32: [0n, 2n ** 32n - 1n],
@@ -13,22 +13,22 @@ const ranges = {
   uint64: [0n, 2n ** 64n - 1n],
 };
 
-/** Bytes of a message, as Limits.max_message_bytes has them, and of what stands around music in its message. */
+/** The size limit of a message in bytes, as in Limits.max_message_bytes, and the bytes around the music in its message. */
 const mostBytes = 16 << 20;
 const aroundMusic = 32;
 
-/** Arrays of samples, by the encoding whose bytes they have. */
+/** The typed array whose bytes are in this encoding. */
 const samples = { AUDIO_ENCODING_PCM_F32LE: 'Float32Array', AUDIO_ENCODING_PCM_S16LE: 'Int16Array' };
 
 /**
- * A copy of `value`, a message of the API's `type`, for the stub. Throws ChoreoError, naming the field's path, the value and what is allowed.
- * `name`: of the whole. `encoding`: of the music that it may hold.
+ * Returns a copy, for the stub, of `value`, a message of the API's `type`. Throws ChoreoError, naming the field's path, the value and what is
+ * allowed. `name`: the message's name in errors. `encoding`: that of any music in the message.
  */
 export function checked(type, value, name, encoding) {
   return message(api.lookupType(`choreo.v1.${type}`), value, '', name, encoding);
 }
 
-/** Throws for `audio` that no message can hold. `remedy`: what to do. */
+/** Throws for `audio` that is too large for a message. `remedy`: the error's advice. */
 export function requireSendable(audio, remedy) {
   const size = audio?.data?.length ?? 0;
   if (size + aroundMusic <= mostBytes) return;
@@ -44,7 +44,7 @@ function message(type, value, path, name, encoding) {
   const copy = {};
   const chosen = {}; // of each oneof
   for (const [key, one] of Object.entries(value)) {
-    if (Object.hasOwn(type.oneofs ?? {}, key) && typeof one !== 'object') continue; // in answers it names what is there
+    if (Object.hasOwn(type.oneofs ?? {}, key) && typeof one !== 'object') continue; // an answer's oneof member names the present field
     const at = path ? `${path}.${key}` : key;
     if (!Object.hasOwn(type.fields, key)) throw invalid(at, `no field of ${type.name}; ${hint(key, names)}`);
     if (one === undefined || one === null) continue;

@@ -4,7 +4,7 @@ import { dance } from './dance.js';
 import { Replicas } from './replicas.js';
 import { transition } from './transition.js';
 
-/** A client of one server or of several replicas. index.d.ts explains each method. */
+/** A client of one server or of several replicas. index.d.ts documents each method. */
 export class ChoreoClient {
   #replicas;
 

@@ -1,4 +1,5 @@
-// Why no connection comes about, in the words of the options: gRPC tells it in OpenSSL's. What only the caller can mend is not tried again.
+// Explains failed connections in terms of the client's options; gRPC reports OpenSSL's messages. Failures that only the caller can fix are not
+// retried.
 import { lookup } from 'node:dns/promises';
 import { connect } from 'node:tls';
 import { unavailable } from './error.js';
@@ -6,13 +7,13 @@ import { nameOf } from './options.js';
 
 const probeTime = 1000; // milliseconds for a handshake
 
-/** The part of gRPC's words that says why. */
+/** Extracts the reason from gRPC's message. */
 function reasonOf(details) {
   const reason = details.split('Last error: ').pop().replace(/\.? Resolution note: .*$/s, '');
   return reason.replace(/^Error(?: \[\w+\])?: /, '').replace(/\s+/g, ' ').trim();
 }
 
-/** What is wrong with which option; nothing where a server is only away. */
+/** Returns which option is wrong, and how; undefined if the server is merely unreachable. */
 function faultOf(reason, { tls, caCertificate }) {
   if (!tls) return undefined;
   if (/wrong version number|packet length too long|record layer failure/.test(reason)) return 'the server there speaks no TLS: leave out tls';
@@ -26,19 +27,19 @@ function faultOf(reason, { tls, caCertificate }) {
   return undefined;
 }
 
-/** Host and port of an address. */
+/** Splits an address into host and port. */
 function partsOf(address) {
   const [, host, port] = /^(?:dns:(?:\/\/[^/]*\/)?|ipv[46]:)?\[?([^,/]+?)\]?:(\d+)(?:,|$)/.exec(address) ?? [];
   return { host, port: Number(port) };
 }
 
-/** Whether nobody knows its host; false where nobody could be asked. */
+/** Whether the host name does not exist; false if no DNS server answers. */
 const isUnknown = ({ host }) => lookup(host).then(() => false, ({ code }) => code === 'ENOTFOUND');
 
-/** Whether a server speaks TLS there. */
+/** Whether a server at this address speaks TLS. */
 function speaksTls(at) {
   return new Promise((resolve) => {
-    // Nothing is sent, so it does not matter whose certificate it is.
+    // Accepts any certificate, because nothing is sent.
     const socket = connect({ ...at, ALPNProtocols: ['h2'], rejectUnauthorized: false, timeout: probeTime });
     const end = (answer) => {
       socket.destroy();
@@ -48,14 +49,14 @@ function speaksTls(at) {
   });
 }
 
-/** gRPC's words for a server that is not reached. */
+/** Matches gRPC's messages for a server that is not reached. */
 const away = /No connection established|Name resolution failed/;
 
-/** `error` in words of people: of a server that is not reached, `isAway`; of one that never was, what to mend. */
+/** Rewrites `error` for people. Sets `isAway` if no server was reached, and suggests a fix if the server never was. */
 export async function explained(error, { address, wasThere }, options) {
   if (error.isAway || error.code !== 'UNAVAILABLE' || !away.test(error.message)) return error;
   const reason = reasonOf(error.message);
-  // Of one that was there before, names and certificates may come back, too.
+  // If the server was reached before, its name and certificate may work again, too.
   if (wasThere) return noAnswer(reason);
   const wasClosed = /^Failed to connect/.test(reason);
   const at = partsOf(address);
@@ -69,7 +70,7 @@ export async function explained(error, { address, wasThere }, options) {
 
 const plain = { ECONNREFUSED: 'connection refused', ETIMEDOUT: 'nobody answers', EHOSTUNREACH: 'no way to its host', ENETUNREACH: 'no way to its network' };
 
-/** Whose `reason` it is, is for others to say. */
+/** Makes the error for an unreachable server. Callers add its address. */
 export function noAnswer(reason) {
   const [, name] = /^connect (\w+) /.exec(reason) ?? [];
   return Object.assign(unavailable(`no server is reached: ${plain[name] ?? reason}`), { isAway: true });

@@ -1,4 +1,4 @@
-// A dance that outlives its server: it goes on at another one from the last continuation, and the caller reads what it would have read.
+// A dance that survives the loss of its server: it resumes on another one from the last continuation, and the caller reads the same answers.
 import grpc from '@grpc/grpc-js';
 import { answersOf } from './answers.js';
 import { asSent } from './as_sent.js';
@@ -8,14 +8,14 @@ import { firstOutputFrame, requireSameFingerprint } from './header.js';
 import { Journal } from './journal.js';
 import { DeliveryFilter } from './delivery_filter.js';
 
-/** The answers of StreamDance to `requests`. */
+/** Yields the answers of StreamDance to `requests`. */
 export async function* dance(replicas, requests, given) {
   const options = checkCall(given, ['signal', 'deadline', 'onResume', 'onRejected']);
   const { deadline, onResume, onRejected = warn } = options;
   const journal = new Journal(requests);
   const progress = new Progress(journal, onResume, onRejected);
   try {
-    // What is known beforehand is checked before anybody is asked.
+    // Checks requests that are already known before calling a server.
     if (Array.isArray(requests)) for (let at = 0; at < requests.length; ++at) await journal.at(at);
     yield* replicas.persist(attempt, options);
   } finally {
@@ -40,14 +40,14 @@ export async function* dance(replicas, requests, given) {
       }
     } catch (error) {
       if (journal.failure) throw journal.failure;
-      // All was said: nothing of the status matters any more.
+      // The dance is complete, so the call's status no longer matters.
       if (!progress.complete) throw error instanceof ChoreoError ? because(progress, error) : error;
     }
     if (!progress.complete) throw because(progress, unavailable('the server ended the dance before its summary'));
   }
 }
 
-/** Waits until there is a request to begin a call with. Throws for one that is refused, and for a caller who waits no longer. */
+/** Waits for the first request of a call. Throws if it is invalid, or if the signal or the deadline ends the wait. */
 async function firstRequest(journal, signal, deadline) {
   let leave, late = false; // a timer may end a millisecond early by the clock
   const end = new Promise((resolve) => {
@@ -69,7 +69,7 @@ function because(progress, error) {
   return error;
 }
 
-/** Says what the journal holds, as fast as the server takes it, until the call is over. */
+/** Sends the journal's requests, as fast as the server accepts them, until the call is over. */
 async function say(call, journal, progress, sent) {
   let over = false;
   const end = new Promise((resolve) => call.once('status', resolve)).then(() => (over = true));
@@ -88,25 +88,25 @@ async function say(call, journal, progress, sent) {
   }
 }
 
-/** Who does not ask for them still learns of keys that are not danced; those that are no keys, who asked for that. */
+/** Warns callers without `onRejected` of keys that are not danced, except invalid keys, whose rejection they requested. */
 function warn({ id, reason, code }) {
   if (code === 'REJECTION_CODE_INVALID') return;
   process.emitWarning(`key "${id}" is not danced as it was sent: ${reason}`, { type: 'KeyRejectedWarning', code });
 }
 
-/** What has come of a dance, and how another server goes on with it. */
+/** The received part of a dance, and how another server continues it. */
 class Progress {
   complete = false;
-  /** Of the first call, in its server's log. */
+  /** The name of the first call in its server's log. */
   streamId;
-  /** Why the last server was left. */
+  /** The failure of the previous server. */
   lostBecause;
   #journal;
   #onResume;
   #onRejected;
   #header;
   #continuation;
-  #fingerprint; // of the server that danced last
+  #fingerprint; // of the last server that generated frames
   #mayDiffer = false;
   #filter;
 
@@ -116,11 +116,11 @@ class Progress {
     this.#onRejected = onRejected;
   }
 
-  /** The first request of an attempt. */
+  /** Returns the first request of an attempt. */
   first(request) {
     this.#mayDiffer = request.config?.allow_inexact_resume ?? false;
     if (!this.#header || !request.config) return request;
-    // Another server has to dance the same dance, and by the same model.
+    // Another server must generate the same dance with the same model.
     const config = { ...request.config, seed: this.#header.seed, model: this.#header.model };
     if (this.#continuation) {
       delete config.history;
@@ -133,7 +133,7 @@ class Progress {
     return { config };
   }
 
-  /** Another server begins. */
+  /** Prepares for another server. */
   restart() {
     this.#journal.refusedKeys.restart();
     if (!this.#header) return;
@@ -141,7 +141,7 @@ class Progress {
     this.#filter.restart(frame, this.#journal.keysBefore(frame, this.#header.model_frame_rate));
   }
 
-  /** What the caller is to see of an answer, if anything. `sent`: how many requests the server has been sent. */
+  /** Returns the part of an answer for the caller, if any. `sent`: the number of requests sent to the server. */
   take(answer, address, sent) {
     switch (answer.response) {
       case 'header':
@@ -163,10 +163,10 @@ class Progress {
       case 'summary':
         return this.#takeSummary(answer);
     }
-    return undefined; // of a newer version of the protocol
+    return undefined; // from a newer version of the protocol
   }
 
-  /** Rejected keys name what the caller has sent. */
+  /** Translates the fields of a rejected key to those that the caller sent. */
   #asSent(event) {
     const rejected = event.keyframe_rejected;
     if (!rejected?.field) return event;
@@ -187,7 +187,7 @@ class Progress {
       const details = 'the server that should go on with the dance has another frame rate or body';
       throw new ChoreoError({ code: grpc.status.DATA_LOSS, details });
     }
-    // A continuation of another fingerprint was refused, or let through by the caller; without one nobody has looked.
+    // Servers compare fingerprints only if there is a continuation.
     const remedy = ', which config.allow_inexact_resume would let go on';
     if (!this.#continuation && !this.#mayDiffer) requireSameFingerprint(this.#fingerprint, header, address, remedy);
     const exact = this.#continuation ? header.exact_resume : header.fingerprint === this.#fingerprint;
@@ -198,7 +198,7 @@ class Progress {
 
   #takeSummary(answer) {
     this.complete = true;
-    // The server counts the frames that it made itself; where the dance began is known here.
+    // The server counts only the frames that it generated itself: adds those of earlier servers.
     const { report } = answer.summary;
     const made = Number(report.frames) + Number(report.first_frame) - Number(this.#header.first_frame);
     const whole = { ...report, first_frame: this.#header.first_frame, frames: String(made) };

@@ -1,4 +1,4 @@
-// Tells what a resumed dance says again from what is new, so that the caller hears everything once.
+// Filters out the answers that a resumed dance repeats, so that the caller receives each once.
 import grpc from '@grpc/grpc-js';
 import { ChoreoError } from './error.js';
 import { placeOf } from './journal.js';
@@ -6,32 +6,32 @@ import { placeOf } from './journal.js';
 const perFrame = ['root_positions', 'rotations', 'contacts'];
 
 export class DeliveryFilter {
-  #nextFrames = new Map(); // of each candidate, at the output rate; a dance has one
+  #nextFrames = new Map(); // by candidate, at the output rate; a dance has one candidate
   #firstFrame;
-  #rejected = []; // places of keys, as they were told
-  #expected = []; // answers that the present server is still to repeat
-  #told = new Set(); // keys that were reached, warnings
+  #rejected = []; // places of rejected keys, as delivered
+  #expected = []; // answers that the present server has yet to repeat
+  #told = new Set(); // delivered warnings, and keys that were reached
   #lastBeat = -1;
 
   constructor(firstFrame) {
     this.#firstFrame = firstFrame;
   }
 
-  /** The next frame to be told, at the output rate. */
+  /** The next frame to deliver, at the output rate. */
   nextFrame(candidate = 0) {
     return this.#nextFrames.get(candidate) ?? this.#firstFrame;
   }
 
   /**
-   * Another server goes on from `frame` (at the model's rate), and is told all again. Of that, it will answer the keys that stand before
-   * as rejected, or as reached: `late`, each as often as it was spoken of.
+   * Prepares for another server, which continues from `frame` (at the model's rate) and receives all requests again. `late`: the keys before that
+   * frame, each listed as often as it was sent. The new server will report these as rejected or as reached.
    */
   restart(frame, late) {
-    // Keys without a frame are none of `late`.
+    // Keys without a frame are not in `late`.
     this.#expected = [...late, ...this.#rejected.filter((place) => parseInt(place) >= frame || parseInt(place) < 0)];
   }
 
-  /** The frames without those that were told already; undefined if none is left. */
+  /** Removes frames that were delivered already; undefined if none is left. */
   frames(frames) {
     const due = this.nextFrame(frames.candidate);
     const first = Number(frames.first_frame);

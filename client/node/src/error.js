@@ -1,32 +1,32 @@
-// What may go wrong, and when it is worth while to try again.
+// Errors, and when to retry.
 import grpc from '@grpc/grpc-js';
 import { asSent } from './as_sent.js';
 import { rpc } from './protos.js';
 
-/** A failed call: `code` as in 'INVALID_ARGUMENT', the server's words, and what it names. */
+/** A failed call: a `code` such as 'INVALID_ARGUMENT', the server's message, and the fields that it names. */
 export class ChoreoError extends Error {
-  /** `failure`: of gRPC, or made here: {code, details}. */
+  /** `failure`: {code, details}, from gRPC or this package. */
   constructor(failure, violations = []) {
     super(failure.details || failure.message || 'the server failed without saying why');
     this.name = 'ChoreoError';
     this.code = grpc.status[failure.code] ?? 'UNKNOWN';
     /** [{field: 'keyframe.pose.rotations', description: '69 numbers are 23 joints; ...', keyframeId: 'arms up'}] */
     this.violations = violations;
-    /** Try again after so many seconds, where that may help. */
+    /** Seconds after which a retry may succeed; undefined if none would, or it is unknown. */
     this.retryAfter = undefined;
     for (const bytes of failure.metadata?.get('grpc-status-details-bin') ?? []) this.#read(bytes);
   }
 
   /**
-   * Names what callers have sent. `find(violation)`: {message, request}, the message and, of several, its number, where that is known.
-   * `name(field, message)`: what to call a field.
+   * Translates fields to those that the caller sent. `find(violation)` returns {message, request}: the sent message and, if it is one of several
+   * and known, its index. `name(field, message)` returns {field, joint}.
    */
   locate(find, name = asSent) {
     for (const violation of this.violations) {
       const { message, request } = find(violation);
       Object.assign(violation, name(violation.field, message), request !== undefined && { request });
       const place = request === undefined || violation.field.startsWith('requests[') ? '' : `requests[${request}].`;
-      // The server's words name its own list of keys.
+      // The server's message names fields in its own numbering.
       if (this.message.endsWith(`: ${violation.description}`)) this.message = `${place}${violation.field}: ${violation.description}`;
     }
     return this;
@@ -58,18 +58,18 @@ export function cancelled(details = 'the call was cancelled') {
   return new ChoreoError({ code: grpc.status.CANCELLED, details });
 }
 
-/** Of an option of ours; named as the server names its fields. */
+/** Makes the error for an invalid option or field, in the form of the server's errors. */
 export function invalid(field, what) {
   return new ChoreoError({ code: grpc.status.INVALID_ARGUMENT, details: `${field}: ${what}` }, [{ field, description: what }]);
 }
 
-/** What another replica may have been started with. */
+/** Fields that another replica may accept, because it was started with other models. */
 const ofTheReplica = ['config.model', 'config.continuation.fingerprint', 'config.continuation.skeleton'];
 
 /**
- * How a call that failed may be tried again: `here`, at the same server; `elsewhere`, at another one; after `wait` seconds at least. A server
- * that is away or full may be asked again. One that broke, is of another fingerprint or lacks the model would fail again, but another one
- * may do better. Anything else fails everywhere.
+ * Returns how to retry a failed call: `here`, on the same server; `elsewhere`, on another one; after at least `wait` seconds. An unreachable or
+ * full server may be tried again. A server that broke, has another fingerprint or lacks the model would fail again, but another one may
+ * succeed. Any other failure would recur everywhere.
  */
 export function adviceFor(error) {
   const here = error.retryAfter !== undefined || (error.code === 'UNAVAILABLE' && !error.isOfTheCaller);

@@ -1,10 +1,10 @@
-// Numbers and members out of what callers give.
+// Checks and reads numbers and members of callers' arguments.
 import { invalid } from './error.js';
 import { quoted } from './words.js';
 
 export const isObject = (value) => typeof value === 'object' && value !== null && !Array.isArray(value);
 
-/** Throws for what is no body of a model. */
+/** Throws unless the argument is a model's skeleton. */
 export function requireSkeleton(skeleton) {
   if (!skeleton?.joint_names) throw invalid('skeleton', `${quoted(skeleton)} is none, as in (await client.info()).models[0].skeleton`);
 }
@@ -19,7 +19,7 @@ export function vector(value, size, field) {
   return value.map((one, at) => number(one, `${field}[${at}]`));
 }
 
-/** Throws for a `where` with other members than `form`, as in '{ place: [x, z] }', has. */
+/** Throws for a `where` that has other members than `members`. `form`: its form in the message, such as '{ place: [x, z] }'. */
 export function requireWhere(where, form, members) {
   if (!isObject(where)) throw invalid('where', `${quoted(where)} is not ${form}`);
   const unknown = Object.keys(where).find((member) => !members.includes(member));

@@ -1,15 +1,15 @@
-// What the header of an answer means to who goes on elsewhere.
+// Interprets an answer's header for a call that is resumed on another server.
 import grpc from '@grpc/grpc-js';
 import { ChoreoError } from './error.js';
 
-/** Where the first output frame stands that is not before the first frame. */
+/** The first output frame at or after the first frame. */
 export function firstOutputFrame({ first_frame, frame_rate, model_frame_rate }) {
   return Math.ceil((Number(first_frame) * frame_rate) / model_frame_rate - 1e-9);
 }
 
 /**
- * A server of another fingerprint makes other frames; another one may do better. The field is the one that servers name. `remedy`: what would
- * let it be.
+ * Throws for a server of another fingerprint, which would generate other frames; another server may have the right one. The error's field is the
+ * one that servers name. `remedy`: how to permit it, for the message.
  */
 export function requireSameFingerprint(begun, header, address, remedy = '') {
   if (header.fingerprint === begun) return;

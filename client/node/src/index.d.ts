@@ -1,25 +1,25 @@
 import type { GenerateTransitionRequest, GenerateTransitionResponse, GetServerInfoResponse as ServerInfo } from '../types/messages.js';
 import type { Keyframe, KeyframeRejected, Pose, Skeleton, StreamDanceRequest, StreamDanceResponse } from '../types/messages.js';
 
-// Messages are plain objects, named as in choreo/v1/choreography.proto, which the package brings along. What is sent may leave out fields;
-// what comes has all of them, yet of alternatives one: after `if (answer.response === 'frames')`, or `if (answer.frames)`, the compiler knows
-// it. Numbers of 64 bits come as text.
+// Messages are plain objects, named as in choreo/v1/choreography.proto, which the package contains. A message that you send may omit fields. A
+// received message has all of them, except that of alternatives (a oneof) it has one: the compiler knows which after
+// `if (answer.response === 'frames')` or `if (answer.frames)`. Integers of 64 bits are received as strings.
 export * from '../types/messages.js';
 export type { GetServerInfoResponse as ServerInfo } from '../types/messages.js';
 
 type Plain = string | number | bigint | boolean | symbol | null | undefined | ArrayBuffer | ArrayBufferView | readonly unknown[] | { low: number; high: number };
 type Known<S> = S extends unknown ? keyof S : never;
 type Used<T> = { [K in keyof T]-?: [NonNullable<T[K]>] extends [never] ? never : K }[keyof T];
-/** Those of the alternatives `S` that have all that is used of `T`. */
+/** The alternatives in `S` that have all fields used in `T`. */
 type Fitting<T, S> = S extends unknown ? (Used<T> extends Used<S> ? S : never) : never;
 type Of<S, K extends PropertyKey> = S extends unknown ? (K extends keyof S ? NonNullable<S[K]> : never) : never;
-/** `K`, where one of the alternatives lacks it. */
+/** `K` if one of the alternatives `S` lacks it, otherwise never. */
 type Lacking<S, K> = S extends unknown ? (K extends Used<S> ? never : K) : never;
-/** What to say of a field that does not fit. */
+/** The type, which doubles as an error message, of a field that does not fit. */
 type Misfit<S, K> = K extends Known<S> ? ([Lacking<S, K>] extends [never] ? unknown : 'another field of this message excludes this one') : `there is no field ${K & string}`;
 /**
- * A message of type `S` with the fields of `T`; those that `S` does not know, or that exclude one another, are of a type that says so: the compiler
- * looks for them in literals alone, and not in what a generator yields.
+ * A message of type `S` with the fields of `T`. Fields that `S` lacks, or that exclude each other, have a type that states the error. It is needed
+ * because the compiler checks for such fields only in literals, and not in the values that a generator yields.
  */
 export type Exactly<T, S> = T extends Plain
   ? T
@@ -27,110 +27,114 @@ export type Exactly<T, S> = T extends Plain
     ? { [K in keyof T]: Misfit<S, K> }
     : { [K in keyof T]: Exactly<T[K], Of<Fitting<T, S>, K>> };
 
-/** What a StreamDanceRequest may hold: one of these. */
+/** The fields of a StreamDanceRequest, of which it has exactly one. */
 export interface OneRequest extends Fields<StreamDanceRequest> {}
 type Fields<S> = { [K in Known<S>]?: Of<S, K> | null };
-/** Nothing where the compiler has given up on `T`: what is wrong with OneRequest is told. */
+/** No constraint if the compiler could not infer `T`: it then reports the mismatch with OneRequest. */
 type Only<T> = OneRequest extends T ? unknown : Exactly<T, StreamDanceRequest>;
 
-/** How to reach the servers, and how patiently. */
+/** Credentials, timeouts and retries of a client. */
 export interface ClientOptions {
   tls?: boolean;
-  /** PEM file, or its text, of the authority to trust, with `tls`; default: those that Node.js trusts. */
+  /** The certificate of the authority to trust, with `tls`: a PEM file or its text. Default: the authorities that Node.js trusts. */
   caCertificate?: string;
-  /** PEM files, or their texts, of a certificate and its key, with `tls`, where the server wants to see one. */
+  /** The client's certificate and its key, with `tls`, if the server requires one: PEM files or their texts. */
   clientCertificate?: string;
   clientKey?: string;
-  /** Whose certificate the server must have, with `tls`; default: the one of its address. */
+  /** The name in the server's certificate, with `tls`. Default: the host name in its address. */
   serverName?: string;
-  /** The token that the server wants, sent with each call. Needs `tls`, unless all addresses are of this machine. */
+  /** The token that the server requires, sent with each call. Requires `tls`, unless all addresses are on this machine. */
   token?: string;
-  /** The file of it instead, read again for each call, so that it can be renewed. */
+  /** A file with the token, instead of `token`. It is read again for each call, so that the token can be renewed. */
   tokenFile?: string;
-  /** Seconds for one attempt at one address; default 5. */
+  /** The time limit for one attempt to connect to one address, seconds. Default 5. */
   connectTimeout?: number;
-  /** A server of which nothing is heard for so many seconds, not even the answer to a ping, is lost; at least 2, or 0: never. Default 5. */
+  /** Seconds after which a server that sends nothing, not even answers to pings, counts as lost. At least 2; 0: never. Default 5. */
   silence?: number;
   /**
-   * Seconds to try again and again since a call last made progress; default 10. A server that asks to wait longer than is left is not waited
-   * for: the error has its `retryAfter`. 0: not at all, so nothing goes on elsewhere.
+   * Seconds for which to keep retrying since a call last made progress. Default 10. If a server asks for a longer wait than is left, the call
+   * fails at once with an error that has the server's `retryAfter`. 0: no retries, so no resumption on another server either.
    */
   retry?: number;
-  /** Seconds between tries, doubled with each, up to 2; default 0.1. */
+  /** Seconds between the first attempts, doubled each time, up to 2. Default 0.1. */
   firstBackoff?: number;
 }
 
 export interface CallOptions {
-  /** Ends the call, here and on the server, with CANCELLED, whose `cause` is the signal's reason. */
+  /** Ends the call, here and on the server, with a CANCELLED error whose `cause` is the signal's reason. */
   signal?: AbortSignal;
-  /** When the call must be over, all its attempts together: a date, or milliseconds since 1970. */
+  /** The time by which the call, with all its attempts, must end: a date, or milliseconds since 1970. */
   deadline?: Date | number;
 }
 
-/** A dance went on at another server. */
+/** Reports that a dance has resumed on another server. */
 export interface Resumed {
   address: string;
   /** The next frame to come, at the output rate. */
   frame: number;
   /**
-   * False: of another fingerprint, which config.allow_inexact_resume let through; the dance goes on, yet not as it would have: smoothly, or,
-   * before the first continuation, with the frames that the other server has for it.
+   * False if the new server has another fingerprint, which config.allow_inexact_resume permitted. The dance then continues differently: smoothly
+   * or, before the first continuation, with the new server's own frames.
    */
   exact: boolean;
-  /** Why the other server was left. */
+  /** The failure of the previous server. */
   because: ChoreoError;
 }
 
 /**
- * A failed call, or an option that cannot be used. The message is the server's, and names field, value and limit: of one of several requests as
- * `requests[3].keyframe.time`.
+ * A failed call, or an unusable option. The message is the server's, and names the field, the value and the limit. The field of one of several
+ * requests is written like `requests[3].keyframe.time`.
  */
 export class ChoreoError extends Error {
   private constructor();
-  /** As in 'INVALID_ARGUMENT'. */
+  /** The name of a gRPC status code, such as 'INVALID_ARGUMENT'. */
   readonly code: string;
   /**
-   * What is wrong: the field's path in the message that was sent, as in 'keyframe.pose.rotations[48]'; of a rotation its first number, and its
-   * `joint`; the key that it is of; and, where it is known, which of the `requests` it is in, from 0.
+   * The invalid fields. `field` is a path in the message that you sent, such as 'keyframe.pose.rotations[48]'; for a rotation it names the first
+   * number, and `joint` is the rotation's joint. `keyframeId` is the id of the affected key. `request` is the index of the affected request, from
+   * 0, if it is known.
    */
   readonly violations: { field: string; description: string; keyframeId?: string; joint?: number; request?: number }[];
-  /** Try again after so many seconds, where that may help. */
+  /** Seconds after which a retry may succeed; absent if none would, or it is unknown. */
   readonly retryAfter?: number;
 }
 
 /**
- * A client of one server or of several replicas. Connections are made when needed. A call whose server is lost, is full or refuses a model or
- * fingerprint is tried at the next address.
+ * A client of one server or of several replicas. It connects when needed. If a server is lost, is full, or refuses a model or fingerprint, the
+ * call is retried at the next address.
  */
 export class ChoreoClient {
   /**
-   * `addresses`: HOST:PORT, unix:PATH or several of them, which are replicas: when one fails the next is asked. Calls take turns at the
-   * addresses of one name (dns:///NAME:PORT), or of one list (ipv4:A:PORT,B:PORT). Throws ChoreoError for options that cannot be used.
+   * `addresses`: HOST:PORT or unix:PATH. Several addresses are replicas: if one fails, the next is tried. Calls are distributed in turn over the
+   * addresses of one name (dns:///NAME:PORT) or one list (ipv4:A:PORT,B:PORT). Throws ChoreoError for unusable options.
    */
   constructor(addresses: string | string[], options?: ClientOptions);
-  /** Ends its calls with CANCELLED, and refuses others. */
+  /** Ends all calls in progress with CANCELLED, and refuses further calls. */
   close(): void;
 
-  /** Models, limits, devices. `cards`: with the models' cards, JSON of some 30 KB each. */
+  /** Gets the server's models, limits and devices. `cards`: includes the models' cards, JSON of about 30 KB each. */
   info(options?: CallOptions & { cards?: boolean }): Promise<ServerInfo>;
 
   /**
-   * Dances. Sends the `requests`, an iterable that may be asynchronous (music that is being played, say), as fast as the server takes them,
-   * and yields the answers meanwhile. Whoever stops reading ends the dance. When its server is lost, the dance goes on at the next one from
-   * the last continuation: answers are those of an undisturbed dance, bit for bit, which `onResume` alone hears of. Requests must not be
-   * changed once they are said: they may be said again. One that the API does not know ends the dance, naming the field's path; of a
-   * key or its removal, with config.reject_invalid_keys, it is a keyframe_rejected, and the dance goes on. (The summary's shares are those
-   * of the frames since the last resume.)
+   * Runs a dance. Sends the `requests` as fast as the server accepts them, and yields the answers meanwhile. `requests` may be an asynchronous
+   * iterable, such as music that is being played. The dance ends if you stop reading.
    *
-   * A key that comes too late, after later ones have settled its frames, is not danced. `onRejected` hears of it, beside the event; without it
-   * the process is warned, by a KeyRejectedWarning.
+   * If its server is lost, the dance resumes on the next one from the last continuation, with exactly the answers of an uninterrupted dance; only
+   * `onResume` reports it. The summary's shares then cover only the frames since the last resumption. Do not change requests after yielding
+   * them, because they may be sent again.
+   *
+   * A request that is not valid in the API ends the dance with an error that names the field's path. With config.reject_invalid_keys, an invalid
+   * key or removal of a key is answered by a keyframe_rejected instead, and the dance continues.
+   *
+   * A key that is too late, because later keys have made its frames final, is not danced. In addition to the event, `onRejected` is called;
+   * without it, the process emits a KeyRejectedWarning.
    */
   streamDance<T extends OneRequest>(
     requests: Iterable<T & Only<T>> | AsyncIterable<T & Only<T>>,
     options?: CallOptions & { onResume?: (resumed: Resumed) => void; onRejected?: (rejected: KeyframeRejected) => void },
   ): AsyncGenerator<StreamDanceResponse, void, undefined>;
 
-  /** One transition, in one or several candidates. When its server is lost, another one makes it again; nothing is told twice. */
+  /** Generates one transition, as one or several candidates. If its server is lost, another one repeats it; no answer is yielded twice. */
   generateTransition<T extends GenerateTransitionRequest>(
     request: T & Exactly<T, GenerateTransitionRequest>,
     options?: CallOptions,
@@ -138,8 +142,8 @@ export class ChoreoClient {
 }
 
 /**
- * The body of `skeleton` at rest, but for `rotations`, {joint name: [x, y, z] in radians}: wherever the dancer is, or, with `place`, at [x, z] in
- * metres. Throws ChoreoError for joints that it lacks, and what is no rotation.
+ * Makes a pose: the rest pose of `skeleton` with these `rotations`, {joint name: [x, y, z] in radians}. It is at `place`, [x, z] in metres, or,
+ * without one, wherever the dancer is. Throws ChoreoError for joints that the skeleton lacks, and for invalid rotations.
  */
 export function pose(
   skeleton: Pick<Skeleton, 'pelvis_height' | 'joint_names'>,
@@ -147,29 +151,31 @@ export function pose(
   where?: { place?: [number, number] },
 ): Pose & { rotations: number[] };
 
-/** A pose that has a name, of smpl24. */
+/** A named pose of the skeleton smpl24. */
 export interface LibraryPose {
   id: string;
   description: string;
   /** 'standing', 'travelling', 'jump' or 'floor'. */
   tags: string[];
   root_position: [number, number, number];
-  /** An axis-angle vector of each joint. */
+  /** An axis-angle vector for each joint, radians. */
   rotations: [number, number, number][];
 }
 
-/** The poses that key files may name, by name. */
+/** The library's poses, sorted by name, which key files may name. */
 export function poses(): LibraryPose[];
 
 /**
- * The library's pose of this name, for a Keyframe: wherever the dancer is, or, with `place`, at [x, z] in metres; turned by `facing` degrees.
- * `skeleton`: the model's, smpl24. Throws ChoreoError. A jump without a place stands: the console is told.
+ * Returns the library's pose of this name, for a Keyframe, turned by `facing` degrees. It is at `place`, [x, z] in metres, or, without one, wherever
+ * the dancer is. `skeleton`: the model's, which must be smpl24. Throws ChoreoError. Warns on the console about a jump without a place, which is
+ * danced standing on the floor.
  */
 export function libraryPose(name: string, skeleton: Skeleton, where?: { place?: [number, number]; facing?: number }): Pose & { rotations: number[] };
 
 /**
- * The keys of a key file, its text or what JSON.parse has made of it, as requests of streamDance. A key that is held becomes several. They come
- * in order, unless some say their time and others their frame. Times are seconds: counts of a song ("9c") need its beats, which `choreo` finds. Poses in numbers are
- * `rotations`. Throws ChoreoError. Of a jump without a place, which stands, the console is told.
+ * Reads the keys of a key file, given as its text or as the result of JSON.parse, as requests for streamDance. A held key becomes several keys.
+ * The keys are in order of time, unless some have a time and others a frame. Times must be in seconds: counts of a song ("9c") require its beats,
+ * which only the `choreo` program finds. Poses in numbers must be `rotations`. Throws ChoreoError. Warns on the console about a jump without a
+ * place, which is danced standing on the floor.
  */
 export function readKeys(file: string | Uint8Array | object, skeleton: Skeleton): { keyframe: Keyframe }[];

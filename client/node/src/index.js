@@ -1,4 +1,4 @@
-// Talks to a choreod. index.d.ts says how.
+// The public API; index.d.ts documents it.
 export { ChoreoClient } from './client.js';
 export { ChoreoError } from './error.js';
 export { libraryPose, readKeys } from './keys.js';

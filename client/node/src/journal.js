@@ -1,21 +1,21 @@
-// What has been said in a dance, in order, for another server to hear it again: a dance goes on from the last continuation and the same
-// messages. Only music that it no longer needs is forgotten.
+// Stores all requests of a dance, in order, to repeat them to another server: a dance resumes from the last continuation and the same messages.
+// Discards only music that is no longer needed.
 import { checked, requireSendable } from './check.js';
 import { invalid } from './error.js';
 import { hasMoment, RefusedKeys, requireKey } from './refused_keys.js';
 
 export class Journal {
   #source;
-  #requests = []; // null: forgotten
-  #more; // while the source is asked
+  #requests = []; // null: discarded
+  #more; // a promise, while the next request is awaited
   #over = false;
-  #musicEnd; // of what was forgotten
-  #nextPiece; // of music: where it starts
+  #musicEnd; // end of the discarded music
+  #nextPiece; // start of the next piece of music
   refusedKeys = new RefusedKeys();
-  /** What the source threw. */
+  /** The error that the source threw. */
   failure;
 
-  /** `requests`: an iterable, which may be asynchronous. It is asked for the next one when the server takes it. */
+  /** `requests`: an iterable, which may be asynchronous. The next request is taken from it when the server is ready to receive one. */
   constructor(requests) {
     const begin = requests?.[Symbol.asyncIterator] ?? requests?.[Symbol.iterator];
     const isOne = typeof requests === 'object' && requests !== null && !begin;
@@ -24,7 +24,7 @@ export class Journal {
     this.#source = begin.call(requests);
   }
 
-  /** Request number `index`: undefined where the source ended before it, null if it is forgotten. Throws what the source threw. */
+  /** Returns request number `index`: undefined if the source ended before it, null if it is discarded. Throws what the source threw. */
   async at(index) {
     while (index >= this.#requests.length && !this.#over) {
       this.#more ??= this.#ask();
@@ -60,28 +60,31 @@ export class Journal {
       const goesOn = this.#requests[0]?.config?.reject_invalid_keys;
       const blank = goesOn ? this.refusedKeys.blank(request, error) : undefined;
       if (blank) return blank;
-      this.close(); // the source knows nothing of it
+      this.close(); // the source did not fail itself
       const keyframeId = request?.keyframe?.id;
       if (typeof keyframeId === 'string') error.violations.forEach((violation) => Object.assign(violation, { keyframeId }));
       throw error.locate(() => ({ request: this.#requests.length }), (field) => ({ field }));
     }
   }
 
-  /** A piece of music starts where the one before has ended, unless the caller says where. A file's are counted in bytes. */
+  /** Numbers a piece of music: it starts at the end of the previous one unless the caller gives its start. For a file, counts bytes. */
   #numberPiece(audio) {
     audio.first_sample ??= this.#nextPiece ?? this.#format().first_sample ?? 0;
     this.#nextPiece = Number(audio.first_sample) + Math.floor((audio.data?.length ?? 0) / (this.bytesPerSample() || 1));
   }
 
-  /** Nobody will ask any more. */
+  /** Ends the source: no more requests are needed. */
   close() {
     if (this.#over) return;
     this.#over = true;
-    // A source that is at work ends when it is done with that.
+    // A source that is producing a request ends after it.
     Promise.resolve(this.#source.return?.()).catch(() => {});
   }
 
-  /** The latest request that may have a field: of a key, the one of that id, if it is known. Its number, if no other one may have it. */
+  /**
+   * Finds the latest request that may contain a field; for a key, the request with its id, if it is known. Includes the request's index if no
+   * other one may contain the field.
+   */
   find({ field, keyframeId }) {
     const kind = field.split(/[.[]/)[0];
     const ofKey = ({ keyframe }) => keyframeId === undefined || keyframe?.id === keyframeId;
@@ -91,7 +94,7 @@ export class Journal {
     return { message: this.#requests[last], request: isAlone ? last : undefined };
   }
 
-  /** Another server would need the music from this sample on alone. The present one has been told what stands before `sent`. */
+  /** Discards music before this sample, which another server would not need. The present server has been sent the first `sent` requests. */
   forgetMusicBefore(sample, sent) {
     const bytes = this.bytesPerSample();
     if (bytes === 0) return;
@@ -105,13 +108,13 @@ export class Journal {
     }
   }
 
-  /** Where the music starts that is still here. */
+  /** The first sample of music still stored. */
   firstSample() {
     const first = this.#requests.find((request) => request?.audio);
     return first ? (first.audio.first_sample ?? 0) : (this.#musicEnd ?? this.#format()?.first_sample ?? 0);
   }
 
-  /** Of all channels together; 0 for a music file, which is decoded as a whole, and without music. */
+  /** Bytes per sample, of all channels together; 0 without music, and for a music file, which is decoded as a whole. */
   bytesPerSample() {
     const format = this.#format();
     const bytes = { AUDIO_ENCODING_PCM_F32LE: 4, 1: 4, AUDIO_ENCODING_PCM_S16LE: 2, 2: 2 }[format?.encoding] ?? 0;
@@ -122,7 +125,7 @@ export class Journal {
     return this.#requests[0]?.config?.audio_format;
   }
 
-  /** What was said of keys that stood before `frame` then: as `placeOf` writes them, in order. Models run at `rate`. */
+  /** The keys that were before `frame` when sent, as `placeOf` writes them, in order. `rate`: the model's. */
   keysBefore(frame, rate) {
     const found = [];
     const frames = new Map();
@@ -132,9 +135,9 @@ export class Journal {
       if (id === undefined) continue;
       if (request.keyframe) {
         const at = hasMoment(request.keyframe) ? frameOf(request.keyframe, previous, rate) : -1;
-        if (at < 0) continue; // it is nowhere
+        if (at < 0) continue; // it has no frame
         if (!request.keyframe.pose) {
-          // It moves no key that is there.
+          // A key without a pose does not move an existing key.
           if (at < frame) found.push(placeOf(id, at));
           if (!frames.has(id)) frames.set(id, at);
           continue;
@@ -153,7 +156,7 @@ function frameOf({ frame, time, interval_after_previous: interval }, previous, r
   return time !== undefined ? Math.round(time * rate) : previous + Number(interval ?? 0);
 }
 
-/** A key by its id, and its frame at the model's rate. */
+/** Writes a key's id, and its frame at the model's rate, as one string. */
 export function placeOf(id, frame) {
   return `${frame} ${id}`;
 }

@@ -1,4 +1,4 @@
-// Key files, as `choreo dance --keyframes` takes them: docs/poses.md.
+// Reads key files as `choreo dance --keyframes` does; docs/poses.md describes them.
 import { invalid } from './error.js';
 import { isObject, number, requireSkeleton, requireWhere, vector } from './fields.js';
 import { find } from './poses.js';
@@ -11,22 +11,23 @@ for (const side of ['left', 'right']) {
   limbs[`${side}_arm`] = [`${side}_shoulder`];
   limbs[`${side}_leg`] = [`${side}_hip`];
 }
-const bends = { left_knee: -1, right_knee: -1, left_elbow: 1, right_elbow: 1 }; // towards z
+const bends = { left_knee: -1, right_knee: -1, left_elbow: 1, right_elbow: 1 }; // direction along z
 const [holdStep, wayFromHold] = [0.2, 0.5]; // seconds
-const usualHit = 1; // of a key that is held
+const usualHit = 1; // default for a held key
 const mostHit = 3;
 const handPoses = ['rest', 'relaxed', 'open', 'fist', 'point'];
 const [mostSeconds, mostFrame] = [1e9, 1e9];
 const folded = 165; // degrees: the largest bend
-// Degrees either way about each axis, by part of the joint's name; the others turn half around. model/motion/joint_angles.cpp has the same.
+// Limits of turns about each axis, in degrees either way, by a part of the joint's name. Other joints may turn by 180 degrees. The limits are
+// the same in model/motion/joint_angles.cpp.
 const mostTurn = { collar: 60, wrist: 90, ankle: 80, foot: 60, toe: 60, spine: 60, neck: 80, head: 80 };
 
-/** The keys of a key file as requests of streamDance; index.d.ts says more. */
+/** Reads the keys of a key file as requests for streamDance; index.d.ts documents it. */
 export function readKeys(file, skeleton) {
   return readAndWarn(file, skeleton, (id, message) => console.warn(`warning: key "${id}": ${message}`));
 }
 
-/** The same; `warn(id, message)` hears of keys that will not be danced as they look. */
+/** Reads the keys of a key file. Calls `warn(id, message)` for keys that will not be danced as written. */
 export function readAndWarn(file, skeleton, warn) {
   requireSkeleton(skeleton);
   const keys = (typeof file === 'string' || ArrayBuffer.isView(file) ? parsed(file) : file)?.keyframes;
@@ -53,7 +54,7 @@ function parsed(file) {
   }
 }
 
-/** A pose of the library as a Pose; index.d.ts says more. */
+/** Returns a pose of the library as a Pose; index.d.ts documents it. */
 export function libraryPose(name, skeleton, where = {}) {
   requireSkeleton(skeleton);
   requireWhere(where, '{ place: [x, z], facing: degrees }', ['place', 'facing']);
@@ -66,7 +67,7 @@ export function libraryPose(name, skeleton, where = {}) {
 
 const poseOf = ({ rotations, root }) => ({ ...(root && { root_position: { x: root[0], y: root[1], z: root[2] } }), rotations: rotations.flat() });
 
-/** A Keyframe, and for how long it is held. */
+/** Reads a Keyframe, and for how long it is held. */
 function readKey(value, field, name, skeleton, warn) {
   if (!isObject(value)) throw invalid(field, `${quoted(value)} is no key`);
   for (const member of Object.keys(value)) {
@@ -102,13 +103,13 @@ function readKey(value, field, name, skeleton, warn) {
   return { key, hold };
 }
 
-/** Whether a key says how far below the root its feet are, and so how high it stands. */
+/** Whether a key determines how far below the root its feet are, and so the root's height when it stands. */
 function setsFeet(mask, { feet, parents }) {
   const isSet = (joint) => joint < 0 || (mask.joints.includes(joint) && isSet(parents[joint]));
   return !mask || feet.every((foot) => isSet(parents[foot]));
 }
 
-/** The rotations of all joints, where the root is, or nothing, and, of a jump that will stand, what to say. */
+/** Reads the rotations of all joints, the root's position, if any, and a warning for a jump that will be danced standing. */
 function readPose(value, field, skeleton) {
   for (const member of ['place', 'facing']) if (member in value && !('pose' in value)) throw invalid(`${field}.${member}`, 'goes with pose');
   const count = skeleton.joint_names.length;
@@ -138,7 +139,7 @@ function readPose(value, field, skeleton) {
   return { rotations, root: [root[0] + x, root[1], root[2] + z] };
 }
 
-/** The keys that hold this one, which from then on says how hard it is hit. */
+/** Returns the keys that hold this one. Sets the key's hit unless it has one. */
 function held(key, hold, starts, field) {
   if (hold === undefined) return [];
   number(hold, field);
@@ -148,7 +149,7 @@ function held(key, hold, starts, field) {
   key.hit = hit ?? usualHit;
   const steps = Math.max(1, Math.floor(hold / holdStep + 1e-9));
   const after = starts.find((start) => start > key.time) ?? Infinity;
-  const last = after > key.time + hold ? Infinity : after - wayFromHold; // who comes meanwhile needs time
+  const last = after > key.time + hold ? Infinity : after - wayFromHold; // leaves time to reach a key within the hold
   return Array.from({ length: steps }, (_, at) => ({ ...other, id: `${key.id} held ${at + 1}`, time: key.time + (hold * (at + 1)) / steps })).filter(({ time }) => time <= last);
 }
 
@@ -176,7 +177,7 @@ function jointOf(name, { name: body, joint_names: names }, field) {
   return joint;
 }
 
-/** The joints of these names, whole limbs among them. */
+/** Makes a mask of the joints with these names, some of which are whole limbs. */
 function maskOf(names, skeleton, field) {
   if (!Array.isArray(names) || names.length === 0) throw invalid(field, `${quoted(names)} is not a list of joint names`);
   return ascending(
@@ -184,13 +185,13 @@ function maskOf(names, skeleton, field) {
       if (typeof name !== 'string') throw invalid(field, `${quoted(name)} is not a joint's name`);
       if (!Object.hasOwn(limbs, name)) return jointOf(name, skeleton, field);
       const limb = new Set(limbs[name].map((root) => jointOf(root, skeleton, field)));
-      skeleton.parents.forEach((parent, joint) => limb.has(parent) && limb.add(joint)); // which are there before their children
+      skeleton.parents.forEach((parent, joint) => limb.has(parent) && limb.add(joint)); // parents precede their children
       return [...limb];
     }),
   );
 }
 
-/** A rotation: of knees and elbows their bend, of others turns about x, then y, then z. */
+/** Makes a rotation from degrees: the bend of a knee or elbow, or another joint's turns about x, then y, then z. */
 function turnOf(joint, degrees, skeleton, field) {
   const at = 3 * jointOf(joint, skeleton, field);
   if (!Object.hasOwn(bends, joint)) {
@@ -203,7 +204,7 @@ function turnOf(joint, degrees, skeleton, field) {
   requireRange(joint, number(degrees, field), '', 0, folded, field);
   const [x, y] = skeleton.offsets.slice(at, at + 2);
   const bend = (radians(degrees) * bends[joint]) / Math.hypot(x, y);
-  return [bend * y, -bend * x, 0]; // about the bone's cross product with z
+  return [bend * y, -bend * x, 0]; // about the cross product of the bone and z
 }
 
 function requireRange(joint, degrees, about, low, high, field) {

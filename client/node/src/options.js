@@ -1,4 +1,4 @@
-// How to reach the servers, and how patiently: what the caller said, checked, as gRPC wants it.
+// Checks a client's options, and converts them for gRPC.
 import { createPrivateKey, X509Certificate } from 'node:crypto';
 import { readFileSync } from 'node:fs';
 import { isIPv4 } from 'node:net';
@@ -7,7 +7,7 @@ import grpc from '@grpc/grpc-js';
 import { invalid } from './error.js';
 import { hint, quoted } from './words.js';
 
-/** What index.d.ts explains. */
+/** Defaults of the options, which index.d.ts documents. */
 const defaults = {
   tls: false,
   caCertificate: '',
@@ -25,13 +25,13 @@ const leastSilence = 2; // seconds
 const mostPort = 65535;
 const mostTokenBytes = 4096; // gRPC's headers have 8 KiB in all
 
-/** The options with their defaults. Throws ChoreoError, naming the option, for those that cannot be used. */
+/** Returns the options with their defaults. Throws ChoreoError, naming the option, for unusable ones. */
 export function checkOptions(addresses, given) {
   for (const name of Object.keys(given)) if (!Object.hasOwn(defaults, name)) throw invalid(name, `no option; ${hint(name, Object.keys(defaults))}`);
   const options = { ...defaults, ...Object.fromEntries(Object.entries(given).filter(([, value]) => value !== undefined)) };
   for (const [name, value] of Object.entries(options)) {
     const wanted = typeof defaults[name];
-    // What should be a text may be a secret.
+    // Does not show the value of a text option, which may be a secret.
     const shown = wanted === 'string' ? (value?.constructor.name ?? value) : quoted(value);
     if (typeof value !== wanted) throw invalid(name, `${shown} is no ${wanted}`);
     if (typeof value === 'number' && !(value >= 0 && Number.isFinite(value))) throw invalid(name, `${value} is not a finite number >= 0`);
@@ -46,7 +46,7 @@ export function checkOptions(addresses, given) {
   return options;
 }
 
-// What gRPC would take for a name, or for another port.
+// Refuses addresses that gRPC would misread as a host name, or with another port.
 function checkAddress(address) {
   if (typeof address !== 'string' || address === '') throw invalid('addresses', `${quoted(address)} is no HOST:PORT`);
   if (/^https?:/i.test(address)) throw invalid('addresses', `${address} is a URL; HOST:PORT is wanted, and the option tls for TLS`);
@@ -56,7 +56,7 @@ function checkAddress(address) {
   if (Number(port) < 1 || Number(port) > mostPort) throw invalid('addresses', `${address}: port ${port} is not in [1, ${mostPort}]`);
 }
 
-/** Nobody else hears what is said to it. A name that only begins like an address is a name. */
+/** Whether traffic to this address stays on this machine. A host name that merely begins like an IP address is a name. */
 function isOfThisMachine(address) {
   if (address.startsWith('unix:')) return true;
   const hosts = address.replace(/^ipv[46]:/, '').split(',');
@@ -74,7 +74,7 @@ function checkToken(addresses, { token, tokenFile, tls }) {
   if (!tls && far) throw invalid(name, `a token goes to ${far} over TLS alone`);
 }
 
-// The value itself is never quoted.
+// Checks a token. Errors never quote it.
 function requireToken(field, what, token) {
   if (token.length > mostTokenBytes) throw invalid(field, `${what} has ${token.length} bytes, of at most ${mostTokenBytes}`);
   if (token !== token.trim()) throw invalid(field, `${what} begins or ends with spaces or a newline; trim it`);
@@ -90,10 +90,10 @@ function read(field, path) {
 }
 
 const isPem = (text) => text.includes('-----BEGIN');
-/** What to call a PEM file or text, which may be a secret. */
+/** The name, in messages, of a PEM file or text; a text may be a secret. */
 export const nameOf = (pem) => (isPem(pem) ? 'the text' : pem);
 
-/** The text that `pem` is, or is the path of, in which `check` finds no fault. */
+/** Returns the text that `pem` is, or whose path it is. Throws if `check` does. */
 function readPem(field, pem, what, check) {
   const text = isPem(pem) ? Buffer.from(pem) : read(field, pem);
   try {
@@ -104,7 +104,7 @@ function readPem(field, pem, what, check) {
   return text;
 }
 
-/** gRPC's credentials for `options`. */
+/** Makes gRPC's credentials for `options`. */
 export function credentialsFor(options) {
   const { tls, caCertificate, clientCertificate, clientKey } = options;
   if (!clientCertificate !== !clientKey) {
@@ -125,7 +125,7 @@ export function credentialsFor(options) {
   return grpc.credentials.createSsl(roots, key, cert);
 }
 
-/** What each call carries: the token, which is read again for each, so that its file can be renewed. */
+/** The metadata of each call: the token, which is read again each time, so that its file can be renewed. */
 export function metadataFor({ token, tokenFile }) {
   const metadata = new grpc.Metadata();
   let sent = token;
@@ -137,10 +137,10 @@ export function metadataFor({ token, tokenFile }) {
   return metadata;
 }
 
-/** Of gRPC's channels. Calls take turns at all addresses of a name. */
+/** Options for gRPC's channels. Distributes calls in turn over all addresses of a name. */
 export function channelOptions({ serverName, silence }) {
   const named = serverName && { 'grpc.ssl_target_name_override': serverName, 'grpc.default_authority': serverName };
-  // Half of the time until a ping, half for its answer.
+  // Half of the time passes before a ping, the other half is for its answer.
   const pings = silence && { 'grpc.keepalive_time_ms': 500 * silence, 'grpc.keepalive_timeout_ms': 500 * silence };
   return {
     'grpc.service_config': JSON.stringify({ loadBalancingConfig: [{ round_robin: {} }] }),

@@ -2,7 +2,7 @@ import { invalid } from './error.js';
 import { requireSkeleton, requireWhere, vector } from './fields.js';
 import { hint, quoted } from './words.js';
 
-/** The body of `skeleton` at rest, but for `rotations`; index.d.ts says more. */
+/** Makes a pose: the rest pose of `skeleton` with these `rotations`; index.d.ts documents it. */
 export function pose(skeleton, rotations = {}, where = {}) {
   requireSkeleton(skeleton);
   const names = skeleton.joint_names;

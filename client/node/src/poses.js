@@ -1,15 +1,15 @@
-// The library: poses that have names. Key files name them.
+// The library of named poses, which key files may name.
 import { existsSync, readdirSync, readFileSync } from 'node:fs';
 import { invalid } from './error.js';
 import { hint, quoted } from './words.js';
 
 const packed = new URL('../poses/', import.meta.url);
-// A checkout has no copy: there the repository's are read.
+// A checkout has no copy of the poses: uses the repository's folder.
 const folder = existsSync(packed) ? packed : new URL('../../poses/', import.meta.url);
 
 let library;
 
-/** The poses that key files may name, by name. */
+/** The library's poses, sorted by name. */
 export function poses() {
   library ??= readdirSync(folder).sort().map((name) => {
     const { description, tags, keyframes: [{ id, root_position: position, rotations }] } = JSON.parse(readFileSync(new URL(name, folder)));
@@ -18,7 +18,7 @@ export function poses() {
   return library;
 }
 
-/** The pose of this name. */
+/** Finds the pose of this name. Throws ChoreoError, naming `field`, if there is none. */
 export function find(name, field) {
   const found = poses().find(({ id }) => id === name);
   if (!found) throw invalid(field, `${quoted(name)} is no pose of the library; ${hint(String(name), poses().map(({ id }) => id))}`);

@@ -7,19 +7,19 @@ import protoLoader from '@grpc/proto-loader';
 import protobuf from 'protobufjs';
 
 const packed = fileURLToPath(new URL('../proto', import.meta.url));
-// A checkout has no copy: there the repository's are read.
+// A checkout has no copy of the protos: uses the repository's folder.
 const folder = existsSync(packed) ? packed : fileURLToPath(new URL('../../../proto', import.meta.url));
 
-/** How messages become plain objects; the package's types are generated with the same. */
+/** Options for converting messages to plain objects; the package's types are generated with the same ones. */
 export const literal = {
   keepCase: true, // errors name fields as the proto does
   longs: String, // a seed has 64 bits, a number only 53
   enums: String,
   defaults: true,
-  oneofs: true, // answer.response names what an answer holds
+  oneofs: true, // answer.response names the present field
 };
 
-/** The stub of gRPC for choreo.v1.Choreography. */
+/** gRPC's stub for choreo.v1.Choreography. */
 export const Choreography = grpc.loadPackageDefinition(
   protoLoader.loadSync('choreo/v1/choreography.proto', { includeDirs: [folder], ...literal }),
 ).choreo.v1.Choreography;

@@ -1,26 +1,26 @@
-// Keys, and removals of keys, that the package's own check refuses, in dances that go on without bad keys. In place of each the server is told
-// a blank: a key without a pose, at the moment that the key names. It rejects that in its turn, and again where the dance is resumed; the
-// caller is told what was wrong here.
+// Handles keys, and removals of keys, that the package's own check refuses, in dances that continue without invalid keys. Instead of each, the
+// server is sent a blank: a key without a pose at the same moment. The server rejects the blank in order, also after a resumption; the caller
+// receives the reason that the check found.
 import { checked } from './check.js';
 
 const nowhere = { frame: -1 };
 const kinds = { keyframe: 'Keyframe', remove_keyframe: 'RemoveKeyframe' };
 
 export class RefusedKeys {
-  #bodiless = []; // of all keys without a pose, in order: {field, reason}, or undefined for one that the caller left so
-  #answered = 0; // of them, by the present server
+  #bodiless = []; // for all keys without a pose, in order: {field, reason}, or undefined for a key that the caller sent so
+  #answered = 0; // how many of these the present server has answered
 
-  /** Another server is told all again. */
+  /** Prepares for another server, which receives all requests again. */
   restart() {
     this.#answered = 0;
   }
 
-  /** A request that is said as it is. */
+  /** Notes a request that is sent unchanged. */
   note({ keyframe }) {
     if (keyframe && hasMoment(keyframe) && !keyframe.pose) this.#bodiless.push(undefined);
   }
 
-  /** What to say instead of a request for a key that `error` refuses; undefined where more than the key is wrong. */
+  /** Returns the blank to send instead of a key's request that `error` refuses; undefined if more than the key is invalid. */
   blank(request, error) {
     const kind = kindOf(request);
     if (!kind) return undefined;
@@ -35,7 +35,7 @@ export class RefusedKeys {
     return { keyframe: { id: typeof id === 'string' ? id : '', ...momentOf(key) } };
   }
 
-  /** What the caller is to hear of an event. */
+  /** Translates an event for the caller. */
   event(event) {
     const rejected = event.keyframe_rejected;
     const ofBodiless = rejected?.code === 'REJECTION_CODE_INVALID' && rejected.field === 'keyframe.pose';
@@ -43,24 +43,24 @@ export class RefusedKeys {
   }
 }
 
-/** Throws for a request that is empty because its key is none. */
+/** Throws for a request whose copy is empty because its key is null or undefined. */
 export function requireKey(request, copy) {
   const kind = kindOf(request);
   if (kind && Object.keys(copy).length === 0) checked(kinds[kind], request[kind], kind);
 }
 
-/** Whether a request is for a key or for its removal. */
+/** Returns which field of a request has a key or its removal. */
 function kindOf(request) {
   const named = Object.keys(kinds).filter((kind) => Object.hasOwn(Object(request), kind));
   return named.find((kind) => (request[kind] ?? undefined) !== undefined) ?? named[0];
 }
 
-/** Whether a key says when. */
+/** Whether a key has a moment. */
 export function hasMoment({ frame, time, interval_after_previous: interval }) {
   return (frame ?? time ?? interval) !== undefined;
 }
 
-/** When a key of any kind is to be, if it says so. */
+/** Returns the moment of a key, valid or not, if it has one. */
 function momentOf({ frame, time, interval_after_previous }) {
   try {
     const moment = checked('Keyframe', { frame, time, interval_after_previous }, 'keyframe');

@@ -1,4 +1,4 @@
-// The servers that may be asked, one at a time, and how long to go on asking.
+// The servers of a client, of which one is in use, and the retries of calls.
 import { setMaxListeners } from 'node:events';
 import { setTimeout as sleep } from 'node:timers/promises';
 import grpc from '@grpc/grpc-js';
@@ -14,7 +14,7 @@ export class Replicas {
   #current = 0;
   #closing = new AbortController();
 
-  /** Throws ChoreoError for options that cannot be used. */
+  /** Throws ChoreoError for unusable options. */
   constructor(addresses, options) {
     this.options = checkOptions(addresses, options);
     const credentials = credentialsFor(this.options);
@@ -35,8 +35,8 @@ export class Replicas {
   }
 
   /**
-   * The answers of `attempt(server, patience, signal)`, an async generator, which is asked for again, of one server after another, until it
-   * ends or trying again would not help. The signal is aborted where the caller's is, or the client is closed.
+   * Yields the answers of `attempt(server, patience, signal)`, an async generator. Calls it again, on one server after another, until it ends or
+   * a retry is useless. Its signal is aborted when the caller's is, or when the client is closed.
    */
   async *persist(attempt, { signal, deadline } = {}) {
     const { end, leave } = joined([signal, this.#closing.signal]);
@@ -74,20 +74,20 @@ export class Replicas {
     }
   }
 
-  /** This one failed: go on to the next, unless another call went on already. False where there is no other. */
+  /** Switches from a failed server to the next, unless another call already has. Returns false if there is no other. */
   #leave(failed) {
     if (this.#servers[this.#current] === failed) this.#current = (this.#current + 1) % this.#servers.length;
     return this.#servers.length > 1;
   }
 }
 
-/** A signal that is aborted as soon as one of `signals` is, and what forgets them. (AbortSignal.any wants Node.js 20.) */
+/** Returns a signal that is aborted as soon as one of `signals` is, and a function to detach it. (AbortSignal.any requires Node.js 20.) */
 function joined(signals) {
   const joint = new AbortController();
   const abort = () => joint.abort();
   const given = signals.filter(Boolean);
   for (const signal of given) {
-    // As many calls as there are may wait for it: Node.js would warn of eleven.
+    // Any number of calls may listen to the signal; Node.js would warn at eleven.
     if (signal instanceof EventTarget) setMaxListeners(0, signal);
     signal.addEventListener('abort', abort);
   }
@@ -95,7 +95,7 @@ function joined(signals) {
   return { end: joint.signal, leave: () => given.forEach((signal) => signal.removeEventListener('abort', abort)) };
 }
 
-/** Waits until the server is there, or will not be: the call then says why. Or until nobody wants it any more. */
+/** Waits until the server is connected, or connecting fails (the call then gives the reason), or the signal is aborted. */
 function connected({ address, stub }, seconds, deadline = Infinity, signal) {
   const { READY, TRANSIENT_FAILURE, SHUTDOWN } = grpc.connectivityState;
   const channel = stub.getChannel();
@@ -115,25 +115,25 @@ function connected({ address, stub }, seconds, deadline = Infinity, signal) {
   return there.finally(leave);
 }
 
-/** Whoever is away is named. */
+/** Adds the addresses to the error of an unreachable server. */
 function named(error, addresses) {
   if (error.code === 'UNAVAILABLE') error.message = `${[...addresses].join(', ')}: ${error.message}`;
   return error;
 }
 
-/** How long to wait before the next attempt of a call, if there is to be one. */
+/** Decides whether to retry a call, and how long to wait before. */
 class Patience {
   #options;
   #deadline;
   #servers;
   #failures = 0; // since the last progress
-  #refusals = 0; // of servers that would refuse again, one after another
+  #refusals = 0; // consecutive refusals by servers that would refuse again
   #since = 0;
-  /** The addresses at which no server was reached since then. */
+  /** The addresses at which no server was reached since the last progress. */
   away = new Set();
-  /** What to tell the caller. Why a server that is there would not serve says more than that another one is away. */
+  /** The error to report to the caller. A refusal by a reachable server takes precedence over another server being unreachable. */
   verdict;
-  /** At which address. */
+  /** The address of the server with that error. */
   verdictOf;
 
   constructor(options, deadline, servers) {
@@ -142,7 +142,7 @@ class Patience {
     this.#servers = servers;
   }
 
-  /** There was progress: count from the beginning. */
+  /** Restarts the time for retries, because the call made progress. */
   reset() {
     this.#failures = 0;
     this.#refusals = 0;
@@ -150,18 +150,18 @@ class Patience {
     this.verdict = undefined;
   }
 
-  /** Seconds, or undefined where trying again would not help, or is no longer allowed. */
+  /** Returns the seconds to wait before a retry; undefined if it would be useless or is no longer allowed. */
   next(failed, elsewhere, address) {
     if (failed.isAway) this.away.add(address);
     const advice = adviceFor(failed);
     const now = Date.now();
     if (this.#failures === 0) this.#since = now;
     if (!advice.here || !this.verdict || adviceFor(this.verdict).here) [this.verdict, this.verdictOf] = [failed, address];
-    // Once all have refused there is no other one left to do better.
+    // Counts refusals until all servers have refused.
     this.#refusals = advice.here ? 0 : this.#refusals + 1;
     const useful = advice.here || (advice.elsewhere && this.#refusals < this.#servers);
     const left = this.#options.retry - (now - this.#since) / 1000;
-    const asked = elsewhere ? 0 : advice.wait; // what a server asks for concerns itself
+    const asked = elsewhere ? 0 : advice.wait; // a server's retry delay applies only to that server
     if (!useful || left <= 0 || asked > left) return undefined;
     const doubled = Math.min(longestBackoff, this.#options.firstBackoff * 2 ** this.#failures++);
     // Clients that lost the same server should not all come back at once.

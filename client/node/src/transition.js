@@ -1,4 +1,4 @@
-// A transition whose server is lost is made again by another one; what was told already is left out.
+// Generates a transition. If its server is lost, another one repeats it, and answers that were delivered already are left out.
 import { answersOf } from './answers.js';
 import { checkCall } from './call_options.js';
 import { checked, requireSendable } from './check.js';
@@ -6,7 +6,7 @@ import { unavailable } from './error.js';
 import { firstOutputFrame, requireSameFingerprint } from './header.js';
 import { DeliveryFilter } from './delivery_filter.js';
 
-/** The answers of GenerateTransition to `request`. */
+/** Yields the answers of GenerateTransition to the request `asked`. */
 export async function* transition(replicas, asked, given) {
   const request = checked('GenerateTransitionRequest', asked, 'request', asked?.config?.audio_format?.encoding);
   requireSendable(request.audio, 'send the music of its frames alone, or a compressed file');

@@ -2,7 +2,7 @@
 
 export const radians = (degrees) => (degrees * Math.PI) / 180;
 
-/** [w, x, y, z]. */
+/** Converts an axis-angle vector to [w, x, y, z]. */
 function quaternion(rotation) {
   const angle = Math.hypot(...rotation);
   const scale = angle > 0 ? Math.sin(angle / 2) / angle : 0.5;
@@ -16,7 +16,7 @@ const product = (a, b) => [
   a[0] * b[3] + a[1] * b[2] - a[2] * b[1] + a[3] * b[0],
 ];
 
-/** The rotation, the shortest one, that turns as the last, then as the one before it, and so on. */
+/** The product of rotations, as the shortest axis-angle vector. It applies the last one first. */
 export function times(...rotations) {
   const [w, ...axis] = rotations.map(quaternion).reduce(product);
   const sine = Math.hypot(...axis);
@@ -24,7 +24,7 @@ export function times(...rotations) {
   return axis.map((one) => (w < 0 ? -scale : scale) * one);
 }
 
-/** A vector, turned. */
+/** Rotates a vector. */
 export function turned(rotation, vector) {
   const q = quaternion(rotation);
   return product(product(q, [0, ...vector]), [q[0], -q[1], -q[2], -q[3]]).slice(1);

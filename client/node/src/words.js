@@ -1,12 +1,12 @@
-// What errors say of what they were given, and what somebody who misspelt a name may have meant.
+// Formats values for errors, and suggests names for misspelt ones.
 import { inspect } from 'node:util';
 
-/** A value, in short. */
+/** Formats a value briefly. */
 export const quoted = (value) => inspect(value, { depth: 0, breakLength: Infinity, maxArrayLength: 3, maxStringLength: 40 });
 
 const plain = (name) => name.toLowerCase().replace(/[^a-z0-9]/g, '');
 
-/** How many letters have to be changed, added or left out. */
+/** The number of letters to change, add or remove to turn `a` into `b`. */
 function distance(a, b) {
   let row = Array.from({ length: b.length + 1 }, (_, at) => at);
   for (let i = 1; i <= a.length; ++i) {
@@ -19,7 +19,7 @@ function distance(a, b) {
   return row[b.length];
 }
 
-/** `did you mean ...?`, or else what `names` there are. */
+/** Returns `did you mean ...?` or, if no name is near, a list of `names`. */
 export function hint(name, names) {
   const asked = plain(name);
   const found =
