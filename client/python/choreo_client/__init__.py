@@ -1,4 +1,4 @@
-"""Talks to a choreod, the server that makes people dance."""
+"""A client for choreod, the server that generates dances."""
 
 from . import choreography
 from ._client import Answers, Client

@@ -1,4 +1,4 @@
-"""Where servers count the joints of a pose, callers count the numbers that they sent."""
+"""Translates fields in errors: servers count the joints of a pose, whereas callers count the numbers that they sent."""
 
 import re
 
@@ -8,8 +8,8 @@ _WIDTHS = {choreography.ROTATION_ENCODING_QUATERNION: 4, choreography.ROTATION_E
 
 
 def as_sent(field, request):
-    """What to say of a server's `field` in a message that was sent as `request` (None: nobody knows): the field, and a joint or None.
-    "keyframe.pose.rotations[16]" is of joint 16, whose first number is "keyframe.pose.rotations[48]"."""
+    """Translates a server's `field` in a message that was sent as `request` (None: unknown). Returns the field, and a joint or None.
+    "keyframe.pose.rotations[16]" is joint 16, whose first number is "keyframe.pose.rotations[48]"."""
     counted = re.fullmatch(r"(.+)\.rotations\[(\d+)\]", field)
     if counted is None:
         return field, None

@@ -1,5 +1,5 @@
-"""Makes messages of what callers give, messages or their fields. protobuf refuses nearly all that the API does not know; here the error names
-the field's path, the value and what is allowed, and comes as a ChoreoError."""
+"""Makes messages from callers' arguments, which are messages or their fields. protobuf refuses nearly all invalid fields; here the error is a
+ChoreoError that names the field's path, the value and what is allowed."""
 
 import collections.abc
 import math
@@ -21,24 +21,25 @@ _RANGES = {
     Field.CPPTYPE_UINT64: (0, 2**64 - 1),
 }
 _MOST_BYTES = 16 << 20  # of a message, as Limits.max_message_bytes has them
-# What buffers of samples hold, by the encoding whose bytes they have.
+# The element type of a buffer of samples whose bytes are in this encoding.
 _SAMPLES = {"AUDIO_ENCODING_PCM_F32LE": "f", "AUDIO_ENCODING_PCM_S16LE": "h"}
 
 
 def checked(kind, value, name, encoding=0):
-    """A message of class `kind`: `value`, or of its fields. `name`: of the whole. `encoding`: of the music that it may hold."""
+    """Returns a message of class `kind` from `value`, a message or its fields. `name`: the message's name in errors. `encoding`: that of any
+    music in the message."""
     return _message(kind.DESCRIPTOR, value, "", name, encoding)
 
 
 def require_sendable(request, remedy):
-    """Raises for a request whose music makes it too large. `remedy`: what to do."""
+    """Raises ChoreoError for a request whose music makes it too large. `remedy`: the error's advice."""
     if request.HasField("audio") and request.ByteSize() > _MOST_BYTES:
         size, most = (f"{size / 2**20:.{digits}f} MiB" for size, digits in ((len(request.audio.data), 1), (_MOST_BYTES, 0)))
         raise invalid("audio.data", f"{size}; a message has at most {most} in all: {remedy}")
 
 
 def music_encoding(request):
-    """What a request's config says of its music."""
+    """The encoding of the music, from a request's config."""
     for name in ("config", "audio_format", "encoding"):
         request = request.get(name) if isinstance(request, collections.abc.Mapping) else getattr(request, name, None)
     return request
@@ -68,13 +69,13 @@ def _message(descriptor, value, path, name, encoding):
 
 
 def _is_repeated(field):
-    # The second is what protobuf had before 6.31.
+    # `label` is for protobuf before 6.31.
     return field.is_repeated if hasattr(field, "is_repeated") else field.label == Field.LABEL_REPEATED
 
 
 def _list(field, value, path, encoding):
     try:
-        # By iter(): the lists of protobuf's C++ have no __iter__.
+        # Calls iter() because the lists of protobuf's C++ implementation have no __iter__.
         entries = None if isinstance(value, (str, bytes, collections.abc.Mapping)) else iter(value)
     except TypeError:
         entries = None
@@ -114,7 +115,7 @@ def _label(kind, value, path):
 
 
 def _whole(value, path, least, most):
-    # JSON has 64 bits as text: MessageToDict.
+    # MessageToDict writes integers of 64 bits as strings, as JSON requires.
     is_text = most > 2**32 and isinstance(value, str) and re.fullmatch(r"-?\d+", value)
     try:
         number = operator.index(int(value) if is_text else value)

@@ -19,8 +19,8 @@ AsyncRequests = typing.AsyncIterable[typing.Union[choreography.StreamDanceReques
 
 
 class Answers(typing.Generic[Answer]):
-    """A server's answers, as they arrive. If you stop reading early, end the call: use this as a context manager. Any thread may read, one at
-    a time, and any other leave the context meanwhile."""
+    """Iterates over a server's answers as they arrive. To stop reading early, end the call: use this as a context manager. Any thread may read,
+    one at a time; another thread may leave the context meanwhile."""
 
     def __init__(self, answers, until, source=None):
         self._answers, self._until, self._source = answers, until, source
@@ -44,18 +44,18 @@ class Answers(typing.Generic[Answer]):
             self._answers.close()
 
     def cancel(self) -> None:
-        """Ends the call, here and on the server, from any thread; reading then raises ChoreoError, code CANCELLED."""
+        """Ends the call, here and on the server. Reading then raises ChoreoError with the code CANCELLED. Any thread may call it."""
         self._until.cancel()
 
 
 class Client:
-    """A client of one server or of several replicas. Connections are made when needed. A call whose server is lost, is full or refuses a model
-    or fingerprint is tried at the next address. Thread-safe, but to be made after a fork. Calls block. Every failure is a ChoreoError, but for
-    what `requests`, `on_resume` and `on_rejected` raise, which comes as it is, and names that are no options: a TypeError.
+    """A client of one server or of several replicas. It connects when needed. If a server is lost, is full, or refuses a model or fingerprint,
+    the call is retried at the next address. Thread-safe; create clients after forking, not before. Calls block. Every failure is a ChoreoError,
+    except that exceptions of `requests`, `on_resume` and `on_rejected` are passed on unchanged, and an unknown option is a TypeError.
 
-    `addresses`: HOST:PORT, unix:PATH or a list of them, which are replicas: when one fails the next is asked. Calls take turns at the
-    addresses of one name (dns:///NAME:PORT), or of one list (ipv4:A:PORT,B:PORT), and pass those whose health says that they do not serve,
-    unless `even_draining`.
+    `addresses`: HOST:PORT, unix:PATH, or a list of replicas: if one fails, the next is tried. Calls are distributed in turn over the addresses
+    of one name (dns:///NAME:PORT) or one list (ipv4:A:PORT,B:PORT). Addresses whose health is not serving are skipped, unless
+    `even_draining`.
     `options`: those of Options."""
 
     def __init__(self, addresses: typing.Union[str, typing.Iterable[str]], **options: typing.Any) -> None:
@@ -64,7 +64,7 @@ class Client:
         self._replicas = Replicas([addresses] if isinstance(addresses, str) else list(addresses), Options(**options))
 
     def close(self) -> None:
-        """Ends its calls with CANCELLED, and refuses others."""
+        """Ends all calls in progress with CANCELLED, and refuses further calls."""
         self._replicas.close()
 
     def __enter__(self) -> Client:
@@ -74,8 +74,8 @@ class Client:
         self.close()
 
     def info(self, timeout: typing.Optional[float] = None, cards: bool = False) -> choreography.GetServerInfoResponse:
-        """Models, limits, devices: a GetServerInfoResponse. `timeout`: seconds, of all attempts together. `cards`: with the models' cards, JSON
-        of some 30 KB each."""
+        """Gets the server's models, limits and devices, as a GetServerInfoResponse. `timeout`: seconds for all attempts together. `cards`:
+        includes the models' cards, JSON of about 30 KB each."""
         until = Cancellation(timeout)
         request = choreography.GetServerInfoRequest(without_cards=not cards)
         metadata = self._replicas.options.metadata
@@ -92,17 +92,19 @@ class Client:
         timeout: typing.Optional[float] = None,
         on_rejected: typing.Optional[typing.Callable[[choreography.KeyframeRejected], object]] = None,
     ) -> Answers[choreography.StreamDanceResponse]:
-        """Dances. Sends the `requests`, an iterable of StreamDanceRequests or of their fields ({"keyframe": ...}), on another thread as fast as
-        the server takes them, and gives the answers meanwhile: Answers with StreamDanceResponses. An asynchronous iterable is awaited in the
-        loop that runs where this is called; aio.stream reads the answers.
+        """Runs a dance. Sends the `requests`, an iterable of StreamDanceRequests or of their fields ({"keyframe": ...}), on another thread as
+        fast as the server accepts them, and returns Answers with StreamDanceResponses, to be read meanwhile. An asynchronous iterable is
+        awaited in the event loop in which this is called; aio.stream reads the answers.
 
-        When its server is lost, the dance goes on at the next one from the last continuation: answers are those of an undisturbed dance, bit
-        for bit. `on_resume` alone hears of it: Resumed. Requests must not be changed once they are said: they may be said again. One that the
-        API does not know ends the dance, naming the field's path; of a key or its removal, with config.reject_invalid_keys, it is a
-        keyframe_rejected, and the dance goes on. (The summary's shares are those of the frames since the last resume.)
+        If its server is lost, the dance resumes on the next one from the last continuation, with exactly the answers of an uninterrupted dance;
+        only `on_resume`, which is called with a Resumed, reports it. The summary's shares then cover only the frames since the last
+        resumption. Do not change requests after yielding them, because they may be sent again.
 
-        A key that comes too late, after later ones have settled its frames, is not danced. `on_rejected` hears of it, beside the event; without
-        it there is a KeyRejectedWarning."""
+        A request that is not valid in the API ends the dance with an error that names the field's path. With config.reject_invalid_keys, an
+        invalid key or removal of a key is answered by a keyframe_rejected instead, and the dance continues.
+
+        A key that is too late, because later keys have made its frames final, is not danced. In addition to the event, `on_rejected` is called;
+        without it, a KeyRejectedWarning is issued."""
         until = Cancellation(timeout)
         source = FromLoop(requests) if hasattr(requests, "__aiter__") else requests
         return Answers(dance(self._replicas, source, on_resume, on_rejected, until), until, source)
@@ -110,7 +112,7 @@ class Client:
     def generate_transition(
         self, request: typing.Union[choreography.GenerateTransitionRequest, Fields], timeout: typing.Optional[float] = None
     ) -> Answers[choreography.GenerateTransitionResponse]:
-        """One transition, in one or several candidates: Answers with GenerateTransitionResponses. `request`: one, or its fields. When its server
-        is lost, another one makes it again; nothing is told twice."""
+        """Generates one transition, as one or several candidates. Returns Answers with GenerateTransitionResponses. `request`: a
+        GenerateTransitionRequest or its fields. If its server is lost, another one repeats it; no answer is delivered twice."""
         until = Cancellation(timeout)
         return Answers(transition(self._replicas, request, until), until)

@@ -1,4 +1,4 @@
-"""Compiles the API's protos with protoc or, where there is none, grpcio-tools. For building, and for a checkout that nobody built."""
+"""Compiles the API's protos with protoc or, without it, grpcio-tools. Used to build the package, and in a checkout that is not built."""
 
 import pathlib
 import re
@@ -17,7 +17,7 @@ def _protoc(proto, *arguments):
 
 
 def compile_protos(proto, out):
-    """Writes a FileDescriptorSet of all that the client needs of the folder `proto`."""
+    """Writes a FileDescriptorSet of the protos in the folder `proto` that the client needs."""
     _protoc(proto, "--include_imports", f"--descriptor_set_out={out}", *MESSAGES, *ERRORS)
 
 
@@ -26,7 +26,7 @@ def write_types(proto, folder):
     _protoc(proto, f"--pyi_out={folder}", *MESSAGES)
     for file in sorted(pathlib.Path(folder, "choreo", "v1").glob("*.pyi")):
         text = re.sub(r"^from choreo\.v1 import ", "from . import ", file.read_text(encoding="utf-8"), flags=re.MULTILINE)
-        # The messages of motion.proto are imported by name, from where they lie no more.
+        # Makes imports of the messages in motion.proto relative, because the package has no choreo.v1.
         text = re.sub(r"^from choreo\.v1\.(\w+) import ", r"from .\1 import ", text, flags=re.MULTILINE)
         pathlib.Path(folder, file.name).write_text(text, encoding="utf-8")
     shutil.rmtree(pathlib.Path(folder, "choreo"))

@@ -1,5 +1,5 @@
-"""Why no connection comes about, in the words of the options: gRPC tells it in OpenSSL's, or not at all. What only the caller can mend is not
-tried again."""
+"""Explains failed connections in terms of the client's options; gRPC reports OpenSSL's messages, or nothing. Failures that only the caller can
+fix are not retried."""
 
 import re
 import socket
@@ -13,16 +13,16 @@ _HOSTNAME_MISMATCH, _IP_ADDRESS_MISMATCH, _EXPIRED = 62, 64, 10  # OpenSSL's X50
 _AT = re.compile(r"(?:dns:(?://[^/]*/)?|ipv[46]:)?\[?([^,/]+?)\]?:(\d+)(?:,|$)")
 
 
-# gRPC's words for a server that is not reached, and what of them says why.
+# Matches gRPC's messages for a server that is not reached, and captures the reason.
 _AWAY = re.compile(r"(?:failed to connect to all addresses|connections to all backends failing)(?:; last error: (.*))?", re.IGNORECASE | re.DOTALL)
 
 
 def explained(error, server, options):
-    """`error` in words of people: of a server that is not reached, `is_away`; of one that never was, what to mend."""
+    """Rewrites `error` for people. Sets `is_away` if no server was reached, and suggests a fix if the server never was."""
     if error.code != "UNAVAILABLE":
         return error
     at = _AT.match(server.address)
-    # Of one that was there before, names and certificates may come back, too.
+    # If the server was reached before, its name and certificate may work again, too.
     fault = _fault(at[1], int(at[2]), options) if at and not server.was_there else None
     if fault is not None:
         known = ChoreoError("UNAVAILABLE", fault)
@@ -38,7 +38,7 @@ def explained(error, server, options):
 
 
 def _fault(host, port, options):
-    """What is wrong with which option; None where a server is only away."""
+    """Returns which option is wrong, and how; None if the server is merely unreachable."""
     try:
         _shake_hands(host, port, options)
     except socket.gaierror as failure:
@@ -63,12 +63,12 @@ def _fault_of_certificate(failure, name, authority):
 
 
 def _shake_hands(host, port, options):
-    """Raises what is wrong, for a server with TLS that `options` should fit."""
+    """Tries a TLS handshake with a server as `options` require. Raises the error if it fails."""
     pem = options.ca_certificate
     context = ssl.create_default_context(**{"cadata" if is_text(pem) else "cafile": pem})
     context.set_alpn_protocols(["h2"])
     context.verify_flags &= ~ssl.VERIFY_X509_STRICT  # which gRPC does not ask for
-    if not options.tls:  # nothing is sent, so it does not matter whose certificate it is
+    if not options.tls:  # accepts any certificate, because nothing is sent
         context.check_hostname = False
         context.verify_mode = ssl.CERT_NONE
     if options.client_certificate:

@@ -1,4 +1,4 @@
-"""A dance that outlives its server: it goes on at another one from the last continuation, and the caller reads what it would have read."""
+"""A dance that survives the loss of its server: it resumes on another one from the last continuation, and the caller reads the same answers."""
 
 import dataclasses
 import threading
@@ -15,14 +15,14 @@ from ._delivery_filter import DeliveryFilter, require_same_fingerprint
 
 @dataclasses.dataclass(frozen=True)
 class Resumed:
-    """A dance went on at another server."""
+    """Reports that a dance has resumed on another server."""
 
     address: str
-    frame: int  # the next one to come, at the output rate
-    # False: of another fingerprint, which config.allow_inexact_resume let through. The dance goes on, yet not as it would have: smoothly, or,
-    # before the first continuation, with the frames that the other server has for it.
+    frame: int  # the next frame to arrive, at the output rate
+    # False if the new server has another fingerprint, which config.allow_inexact_resume permitted. The dance then continues differently: smoothly
+    # or, before the first continuation, with the new server's own frames.
     exact: bool
-    because: ChoreoError  # why the other server was left
+    because: ChoreoError  # the failure of the previous server
 
 
 class KeyRejectedWarning(UserWarning):
@@ -30,13 +30,13 @@ class KeyRejectedWarning(UserWarning):
 
 
 def _warn(rejected):
-    """Who does not ask for them still learns of keys that are not danced; those that are no keys, who asked for that."""
+    """Warns callers without `on_rejected` of keys that are not danced, except invalid keys, whose rejection they requested."""
     if rejected.code != choreography.REJECTION_CODE_INVALID:
         warnings.warn(f'key "{rejected.id}" is not danced as it was sent: {rejected.reason}', KeyRejectedWarning, stacklevel=2)
 
 
 def dance(replicas, requests, on_resume, on_rejected, until):
-    """The answers of StreamDance to `requests`."""
+    """Yields the answers of StreamDance to `requests`."""
     journal = Journal(requests)
     progress = _Progress(journal, on_resume, on_rejected or _warn)
 
@@ -73,7 +73,7 @@ def dance(replicas, requests, on_resume, on_rejected, until):
 
 
 class _Saying:
-    """What one call is sent, on a thread of gRPC's: what the journal holds."""
+    """Iterates over the requests of one call, from the journal. gRPC reads them on a thread of its own."""
 
     def __init__(self, journal, progress):
         self._journal, self._progress = journal, progress
@@ -101,7 +101,7 @@ class _Saying:
 
 
 class _Progress:
-    """What has come of a dance, and how another server goes on with it."""
+    """The received part of a dance, and how another server continues it."""
 
     def __init__(self, journal, on_resume, on_rejected):
         self._journal, self._on_resume, self._on_rejected = journal, on_resume, on_rejected
@@ -113,13 +113,13 @@ class _Progress:
         self.lost_because = None
 
     def first(self, request):
-        """The first request of an attempt."""
+        """Returns the first request of an attempt."""
         self._may_differ = request.config.allow_inexact_resume
         if self._header is None or not request.HasField("config"):
             return request
         again = choreography.StreamDanceRequest()
         again.CopyFrom(request)
-        # Another server has to dance the same dance, and by the same model.
+        # Another server must generate the same dance with the same model.
         again.config.seed, again.config.model = self._header.seed, self._header.model
         if self._continuation is not None:
             again.config.continuation.CopyFrom(self._continuation)
@@ -128,24 +128,23 @@ class _Progress:
         return again
 
     def note_call(self, call):
-        """One that has answered."""
+        """Notes a call that the server has answered."""
         if self._stream_id is None:
             self._stream_id = dict(call.initial_metadata()).get("choreo-stream-id", "")
 
     def resumed_from(self):
-        """Metadata that name the first call, for the logs of both servers."""
+        """Returns metadata that name the first call, for the logs of both servers."""
         return [("choreo-resumed-from", self._stream_id)] if self._stream_id else []
 
     def restart(self):
-        """Another server begins."""
+        """Prepares for another server."""
         self._journal.refused_keys.restart()
         if self._header is not None:
             frame = self._header.first_frame if self._continuation is None else self._continuation.frame
             self._filter.restart(frame, self._journal.keys_before(frame, self._header.model_frame_rate))
 
     def take(self, answer, address, sent):
-        """Whether the caller is to see an answer, which is changed to what the caller should see. `sent`: how many requests the server has
-        been sent."""
+        """Changes an answer to the part for the caller. Returns False if there is none. `sent`: the number of requests sent to the server."""
         kind = answer.WhichOneof("response")
         if kind == "header":
             return self._take_header(answer.header, address)
@@ -177,7 +176,7 @@ class _Progress:
             return True
         if header.frame_rate != self._header.frame_rate or header.skeleton.joint_names != self._header.skeleton.joint_names:
             raise ChoreoError("DATA_LOSS", "the server that should go on with the dance has another frame rate or body")
-        # A continuation of another fingerprint was refused, or let through by the caller; without one nobody has looked.
+        # Servers compare fingerprints only if there is a continuation.
         exact = header.exact_resume
         if self._continuation is None:
             exact = header.fingerprint == self._fingerprint
@@ -190,7 +189,7 @@ class _Progress:
         return False
 
     def _take_summary(self, report):
-        """The server counts the frames that it made itself; where the dance began is known here."""
+        """Completes a summary. The server counts only the frames that it generated itself: adds those of earlier servers."""
         self.complete = True
         report.frames += report.first_frame - self._header.first_frame
         report.first_frame = self._header.first_frame

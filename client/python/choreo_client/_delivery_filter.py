@@ -1,4 +1,4 @@
-"""Tells what a resumed dance says again from what is new, so that the caller hears everything once."""
+"""Filters out the answers that a resumed dance repeats, so that the caller receives each once."""
 
 import collections
 import math
@@ -9,13 +9,13 @@ _PER_FRAME = ("root_positions", "rotations", "contacts")
 
 
 def first_output_frame(header):
-    """Where the first output frame stands that is not before the first frame."""
+    """The first output frame at or after the first frame."""
     return math.ceil(header.first_frame * header.frame_rate / header.model_frame_rate - 1e-9)
 
 
 def require_same_fingerprint(begun, header, address, remedy=""):
-    """A server of another fingerprint makes other frames; another one may do better. The field is the one that servers name. `remedy`: what
-    would let it be."""
+    """Raises for a server of another fingerprint, which would generate other frames; another server may have the right one. The error's field
+    is the one that servers name. `remedy`: how to permit it, for the message."""
     if header.fingerprint != begun:
         what = f'begun by "{begun}"; {address} has "{header.fingerprint}"{remedy}'
         raise wrong_field("FAILED_PRECONDITION", "config.continuation.fingerprint", what)
@@ -23,24 +23,24 @@ def require_same_fingerprint(begun, header, address, remedy=""):
 
 class DeliveryFilter:
     def __init__(self, header):
-        self._next_frames = collections.defaultdict(lambda: first_output_frame(header))  # of each candidate; a dance has one
-        self._rejected = []  # (id, frame) of keys, as they were told
-        self._expected = []  # answers that the present server is still to repeat
-        self._told = set()  # keys that were reached, warnings
+        self._next_frames = collections.defaultdict(lambda: first_output_frame(header))  # by candidate; a dance has one candidate
+        self._rejected = []  # (id, frame) of rejected keys, as delivered
+        self._expected = []  # answers that the present server has yet to repeat
+        self._told = set()  # delivered warnings, and keys that were reached
         self._last_beat = -1.0
 
     def next_frame(self, candidate=0):
-        """The next frame to be told, at the output rate."""
+        """The next frame to deliver, at the output rate."""
         return self._next_frames[candidate]
 
     def restart(self, frame, late):
-        """Another server goes on from `frame` (at the model's rate), and is told all again. Of that, it will answer the keys that
-        stand before as rejected, or as reached: `late`, each as often as it was spoken of."""
-        # Keys without a frame are none of `late`.
+        """Prepares for another server, which continues from `frame` (at the model's rate) and receives all requests again. `late`: the keys
+        before that frame, each listed as often as it was sent. The new server will report these as rejected or as reached."""
+        # Keys without a frame are not in `late`.
         self._expected = late + [place for place in self._rejected if place[1] >= frame or place[1] < 0]
 
     def take_frames(self, frames):
-        """Cuts away the frames that were told already; False if none is left."""
+        """Removes frames that were delivered already. Returns False if none is left."""
         due = self._next_frames[frames.candidate]
         if frames.first_frame > due:
             raise ChoreoError("DATA_LOSS", f"the server left out frames: {frames.first_frame} came where {due} was due")
@@ -54,7 +54,7 @@ class DeliveryFilter:
         return True
 
     def take_event(self, event):
-        """Whether it is new."""
+        """Whether an event is new."""
         kind = event.WhichOneof("event")
         if kind == "keyframe_rejected":
             return self._is_new_rejection((event.keyframe_rejected.id, event.frame))

@@ -1,4 +1,4 @@
-"""What may go wrong, and when it is worth while to try again."""
+"""Errors, and when to retry."""
 
 import collections
 import types
@@ -11,9 +11,9 @@ _rpc = types.SimpleNamespace(**contents(*ERRORS))
 
 
 class Violation(collections.namedtuple("Violation", "field description")):
-    """What the server finds wrong: a field's path in the message that was sent, as in 'keyframe.pose.rotations[48]', and what of it. Of a
-    rotation the field is its first number, and `joint` its joint. `keyframe_id`: the key that it is of. `request`: which of the requests it is
-    in, from 0, where that is known. None where there is none."""
+    """An invalid field. `field` is a path in the message that was sent, such as 'keyframe.pose.rotations[48]', and `description` states what is
+    wrong. For a rotation, the field is its first number, and `joint` is its joint. `keyframe_id`: the id of the affected key. `request`: the
+    index of the affected request, from 0, if it is known. Attributes that do not apply are None."""
 
     def __new__(cls, field, description, keyframe_id=None, joint=None, request=None):
         violation = super().__new__(cls, field, description)
@@ -23,8 +23,8 @@ class Violation(collections.namedtuple("Violation", "field description")):
 
 
 class ChoreoError(Exception):
-    """A failed call, or an option that cannot be used. `code` as in "INVALID_ARGUMENT"; the message is the server's; `violations` has the
-    fields that it names; after `retry_after` seconds trying again may help (None: it will not, or nobody knows)."""
+    """A failed call, or an unusable option. `code` is the name of a gRPC status code, such as "INVALID_ARGUMENT". The message is the server's,
+    and `violations` has the fields that it names. A retry may succeed after `retry_after` seconds (None: it would not, or it is unknown)."""
 
     def __init__(self, code, message, violations=(), retry_after=None):
         super().__init__(message)
@@ -32,11 +32,12 @@ class ChoreoError(Exception):
         self.violations = list(violations)
         self.retry_after = retry_after
         self.is_of_the_caller = False  # options do not fit the server
-        self.is_away = False  # no server was reached
+        self.is_away = False  # whether no server was reached
 
     @classmethod
     def of(cls, failure, find=lambda violation: (None, None)):
-        """A grpc.RpcError. `find(violation)`: the message that was sent and that it is about, and, of several, its number, where it is known."""
+        """Converts a grpc.RpcError. `find(violation)` returns the sent message that a violation is about and, if it is one of several and known,
+        its index."""
         error = cls(failure.code().name, failure.details() or "the server failed without saying why")
         for key, value in failure.trailing_metadata() or ():
             if key == "grpc-status-details-bin":
@@ -44,13 +45,14 @@ class ChoreoError(Exception):
         return error.located(find)
 
     def located(self, find, name=as_sent):
-        """Itself, naming what callers have sent. `name(field, message)`: what to call a field, and the joint or None."""
+        """Translates fields to those that the caller sent, and returns self. `name(field, message)` returns the translated field, and the joint
+        or None."""
         self.violations = [self._located(violation, request, *name(violation.field, message)) for violation in self.violations for message, request in [find(violation)]]
         return self
 
     def _located(self, violation, request, field, joint):
         place = "" if request is None or field.startswith("requests[") else f"requests[{request}]."
-        if str(self).endswith(f": {violation.description}"):  # the server's words name its own list of keys
+        if str(self).endswith(f": {violation.description}"):  # the server's message names fields in its own numbering
             self.args = (f"{place}{field}: {violation.description}",)
         return Violation(field, violation.description, violation.keyframe_id, joint, request)
 
@@ -73,7 +75,7 @@ def unavailable(message):
 
 
 def wrong_field(code, field, what):
-    """Named as the server names its fields."""
+    """Makes an error about a field, in the form of the server's errors."""
     return ChoreoError(code, f"{field}: {what}", [Violation(field, what)])
 
 
@@ -81,16 +83,16 @@ def invalid(field, what):
     return wrong_field("INVALID_ARGUMENT", field, what)
 
 
-# What another replica may have been started with.
+# Fields that another replica may accept, because it was started with other models.
 _OF_THE_REPLICA = ("config.model", "config.continuation.fingerprint", "config.continuation.skeleton")
 
 Advice = collections.namedtuple("Advice", "here elsewhere wait_s")
 
 
 def advice_for(error):
-    """How a call that failed may be tried again: `here`, at the same server; `elsewhere`, at another one; after `wait_s` at least. A server
-    that is away or full may be asked again. One that broke, that options do not fit, is of another fingerprint or lacks the model would fail
-    again, but another one may do better. Anything else fails everywhere."""
+    """Returns how to retry a failed call: `here`, on the same server; `elsewhere`, on another one; after at least `wait_s`. An unreachable or
+    full server may be tried again. A server that broke, does not fit the options, has another fingerprint or lacks the model would fail again,
+    but another one may succeed. Any other failure would recur everywhere."""
     here = error.retry_after is not None or (error.code == "UNAVAILABLE" and not error.is_of_the_caller)
     broken = error.code in ("INTERNAL", "UNKNOWN")
     of_the_replica = bool(error.violations) and error.violations[0].field in _OF_THE_REPLICA

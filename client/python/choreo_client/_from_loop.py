@@ -1,4 +1,4 @@
-"""Requests that a program of asyncio makes, for calls, which ask for them on threads of their own."""
+"""Passes requests from an asyncio program to calls, which read them on threads of their own."""
 
 import asyncio
 import threading
@@ -10,7 +10,8 @@ _END = object()
 
 
 class FromLoop:
-    """An asynchronous iterable as an iterator for another thread: each element is awaited in the loop that runs where this is made."""
+    """Wraps an asynchronous iterable as an iterator for another thread. Each element is awaited in the event loop in which this object is
+    created."""
 
     def __init__(self, source):
         try:
@@ -26,7 +27,7 @@ class FromLoop:
         return self
 
     def require_elsewhere(self):
-        """Raises where the loop itself would wait for what it is to make."""
+        """Raises in the event loop's own thread, which would wait for itself."""
         try:
             here = asyncio.get_running_loop()
         except RuntimeError:
@@ -41,7 +42,7 @@ class FromLoop:
             self._awaited = asyncio.run_coroutine_threadsafe(self._next(), self.loop)
         try:
             element = self._awaited.result()
-        except asyncio.CancelledError:  # as the call is over
+        except asyncio.CancelledError:  # because the call is over
             element = _END
         if element is _END:
             raise StopIteration
@@ -50,11 +51,11 @@ class FromLoop:
     async def _next(self):
         try:
             return await self._source.__anext__()
-        except StopAsyncIteration:  # which futures cannot raise
+        except StopAsyncIteration:  # futures cannot raise StopAsyncIteration
             return _END
 
     def close(self):
-        """Ends the source, also one that is being awaited. Any thread may call it."""
+        """Ends the source, even while it is being awaited. Any thread may call it."""
         with self._state:
             if self._over:
                 return
@@ -67,5 +68,5 @@ class FromLoop:
     async def _aclose(self):
         try:
             await self._source.aclose()
-        except RuntimeError:  # it is at its end anyway: cancelled while it was awaited
+        except RuntimeError:  # the source has already ended: it was cancelled while being awaited
             pass

@@ -1,5 +1,5 @@
-"""What has been said in a dance, in order, for another server to hear it again: a dance goes on from the last continuation and the same
-messages. Only music that it no longer needs is forgotten."""
+"""Stores all requests of a dance, in order, to repeat them to another server: a dance resumes from the last continuation and the same messages.
+Discards only music that is no longer needed."""
 
 import collections.abc
 import math
@@ -17,7 +17,7 @@ _BYTES = {choreography.AUDIO_ENCODING_PCM_F32LE: 4, choreography.AUDIO_ENCODING_
 
 
 class Journal:
-    """Calls take their requests from it on threads of their own, one after another."""
+    """The requests of a dance. Calls read them on threads of their own, one call after another."""
 
     def __init__(self, requests):
         if isinstance(requests, (collections.abc.Mapping, choreography.StreamDanceRequest)):
@@ -26,18 +26,18 @@ class Journal:
             raise invalid("requests", f"{quoted(requests)} is no iterable of messages")
         self._source = iter(requests)
         self._asking = threading.Lock()
-        self._said = []  # None: forgotten
+        self._said = []  # None: discarded
         self._over = False
-        self._music_end = None  # of what was forgotten
-        self._next_piece = None  # of music: where it starts
+        self._music_end = None  # end of the discarded music
+        self._next_piece = None  # start of the next piece of music
         self.refused_keys = RefusedKeys()
-        self.failure = None  # what the source raised
+        self.failure = None  # the exception that the source raised
 
     def at(self, index):
-        """Request number `index`, or None if it is forgotten; raises IndexError where the source ended before it, or what
-        the source raised."""
+        """Returns request number `index`, or None if it is discarded. Raises IndexError if the source ended before it, or what the source
+        raised."""
         while index >= len(self._said):
-            with self._asking:  # the source is asked by one call at a time
+            with self._asking:  # one call at a time reads the source
                 if index < len(self._said):
                     break
                 if self._over:
@@ -62,7 +62,7 @@ class Journal:
             require_sendable(fine, "send it in pieces")
             self.refused_keys.note(fine)
             return self._numbered(fine) if self._said and fine.HasField("audio") else fine
-        except ChoreoError as error:  # of which the source knows nothing
+        except ChoreoError as error:  # the source did not fail itself
             blank = self.refused_keys.blank(request, error) if config.reject_invalid_keys else None
             if blank is not None:
                 return blank
@@ -74,7 +74,7 @@ class Journal:
             raise error.located(lambda violation: (None, len(self._said)), lambda field, message: (field, None))
 
     def _numbered(self, request):
-        """A piece of music starts where the one before has ended, unless the caller says where. A file's are counted in bytes."""
+        """Numbers a piece of music: it starts at the end of the previous one unless the caller gives its start. For a file, counts bytes."""
         start = request.audio.first_sample
         if not start:
             start = self._said[0].config.audio_format.first_sample if self._next_piece is None else self._next_piece
@@ -82,7 +82,7 @@ class Journal:
         if start == request.audio.first_sample:
             return request
         numbered = choreography.StreamDanceRequest()
-        numbered.CopyFrom(request)  # the caller's own stays as it is
+        numbered.CopyFrom(request)  # the caller's request stays unchanged
         numbered.audio.first_sample = start
         return numbered
 
@@ -91,7 +91,7 @@ class Journal:
             self._source.close()
 
     def close(self):
-        """Nobody will ask any more. A source that is at work is left to itself, but for one of a loop."""
+        """Ends the source: no more requests are needed. A source that is producing a request is not interrupted, unless it is asynchronous."""
         if isinstance(self._source, FromLoop):
             self._source.close()
         if self._asking.acquire(blocking=False):
@@ -100,8 +100,8 @@ class Journal:
             self._asking.release()
 
     def find(self, violation):
-        """The latest request that may have its field, or None: of a key, the one of that id, if it is known. And its number, if no other one
-        may have it."""
+        """Finds the latest request that may contain the violation's field, or None; for a key, the request with its id, if it is known. Also
+        returns the request's index if no other one may contain the field."""
         kind = re.match(r"\w*", violation.field)[0]
 
         def may_have(request):
@@ -116,7 +116,8 @@ class Journal:
         return request, at if len(found) == 1 else None
 
     def forget_music_before(self, sample, sent):
-        """Another server would need the music from this sample on alone. The present one has been told the first `sent` requests."""
+        """Discards music before this sample, which another server would not need. The present server has been sent the first `sent`
+        requests."""
         size = self.bytes_per_sample()
         if size == 0:
             return
@@ -130,19 +131,19 @@ class Journal:
             self._said[at] = None
 
     def first_sample(self):
-        """Where the music starts that is still here."""
+        """The first sample of music still stored."""
         for request in list(self._said):
             if request is not None and request.HasField("audio"):
                 return request.audio.first_sample
         return self._said[0].config.audio_format.first_sample if self._music_end is None else self._music_end
 
     def bytes_per_sample(self):
-        """Of all channels together; 0 for a music file, which is decoded as a whole, and without music."""
+        """Bytes per sample, of all channels together; 0 without music, and for a music file, which is decoded as a whole."""
         audio_format = self._said[0].config.audio_format
         return _BYTES.get(audio_format.encoding, 0) * audio_format.channels
 
     def keys_before(self, frame, rate):
-        """What was said of keys that stood before `frame` then: [(id, frame)], in order. Models run at `rate`."""
+        """The keys that were before `frame` when sent: [(id, frame)], in order. `rate`: the model's."""
         found, frames, previous = [], {}, 0
         for request in list(self._said):
             kind = request and request.WhichOneof("request")
@@ -152,8 +153,8 @@ class Journal:
             if kind == "keyframe":
                 at = -1 if key.WhichOneof("when") is None else _frame_of(key, previous, rate)
                 if at < 0:
-                    continue  # it is nowhere
-                if not key.HasField("pose"):  # it moves no key that is there
+                    continue  # it has no frame
+                if not key.HasField("pose"):  # a key without a pose does not move an existing key
                     if at < frame:
                         found.append((key.id, at))
                     frames.setdefault(key.id, at)

@@ -1,4 +1,4 @@
-"""Key files, as `choreo dance --keyframes` takes them (docs/poses.md)."""
+"""Reads key files as `choreo dance --keyframes` does (docs/poses.md)."""
 
 from __future__ import annotations
 
@@ -18,21 +18,23 @@ from ._words import hint, quoted
 _MEMBERS = ("id", "time", "frame", "hold", "hit", "hands", "pose", "place", "facing", "joints", "root_position", "rotations")
 _LIMBS = {"arms": ("left_shoulder", "right_shoulder"), "legs": ("left_hip", "right_hip")}
 _LIMBS |= {f"{side}_{limb}": (f"{side}_{root}",) for side in ("left", "right") for limb, root in (("arm", "shoulder"), ("leg", "hip"))}
-_BENDS = {"left_knee": -1, "right_knee": -1, "left_elbow": 1, "right_elbow": 1}  # towards z
+_BENDS = {"left_knee": -1, "right_knee": -1, "left_elbow": 1, "right_elbow": 1}  # direction along z
 _HOLD_STEP, _WAY_FROM_HOLD = 0.2, 0.5  # seconds
-_USUAL_HIT = 1  # of a key that is held
+_USUAL_HIT = 1  # default for a held key
 _MOST_HIT = 3
 _HANDS = ("rest", "relaxed", "open", "fist", "point")
 _MOST_SECONDS = _MOST_FRAME = 10**9
 _FOLDED = 165  # degrees: the largest bend
-# Degrees either way about each axis, by part of the joint's name; the others turn half around. model/motion/joint_angles.cpp has the same.
+# Limits of turns about each axis, in degrees either way, by a part of the joint's name. Other joints may turn by 180 degrees. The limits are the
+# same in model/motion/joint_angles.cpp.
 _MOST_TURN = {"collar": 60, "wrist": 90, "ankle": 80, "foot": 60, "toe": 60, "spine": 60, "neck": 80, "head": 80}
 
 
 def read_keys(file: typing.Union[str, bytes, typing.Mapping[str, typing.Any]], skeleton: choreography.Skeleton) -> list[dict]:
-    """The keys of a key file, its text or what JSON has made of it, as requests of stream_dance: [{"keyframe": ...}, ...]. A key that is held
-    becomes several. They come in order, unless some say their time and others their frame. Times are seconds: counts of a song ("9c") need its beats,
-    which `choreo` finds. Poses in numbers are `rotations`. Raises ChoreoError. Warns of a jump without a place, which stands."""
+    """Reads the keys of a key file, given as its text or as parsed JSON, as requests for stream_dance: [{"keyframe": ...}, ...]. A held key
+    becomes several keys. The keys are in order of time, unless some have a time and others a frame. Times must be in seconds: counts of a song
+    ("9c") require its beats, which only the `choreo` program finds. Poses in numbers must be `rotations`. Raises ChoreoError. Warns about a jump
+    without a place, which is danced standing on the floor."""
     require_skeleton(skeleton)
     content = _parsed(file) if isinstance(file, (str, bytes, os.PathLike)) else file
     keys = content.get("keyframes") if isinstance(content, typing.Mapping) else None
@@ -61,8 +63,9 @@ def read_keys(file: typing.Union[str, bytes, typing.Mapping[str, typing.Any]], s
 def library_pose(
     name: str, skeleton: choreography.Skeleton, place: typing.Optional[typing.Sequence[float]] = None, facing: float = 0.0
 ) -> choreography.Pose:
-    """The library's pose of this name, for a Keyframe: wherever the dancer is, or at `place`, [x, z] in metres; turned by `facing` degrees.
-    `skeleton`: the model's, smpl24. Raises ChoreoError. Warns of a jump without a place, which stands."""
+    """Returns the library's pose of this name, for a Keyframe, turned by `facing` degrees. It is at `place`, [x, z] in metres, or, without one,
+    wherever the dancer is. `skeleton`: the model's, which must be smpl24. Raises ChoreoError. Warns about a jump without a place, which is danced
+    standing on the floor."""
     require_skeleton(skeleton)
     given = {"pose": name, "facing": facing} | ({} if place is None else {"place": list(place)})
     rotations, root, lost_jump = _pose(given, "library_pose", skeleton)
@@ -84,7 +87,7 @@ def _parsed(text):
 
 
 def _key(value, field, name, skeleton):
-    """A Keyframe's fields, for how long it is held, and, of a jump that will stand, what to say."""
+    """Reads a Keyframe's fields, for how long it is held, and a warning for a jump that will be danced standing."""
     if not isinstance(value, typing.Mapping):
         raise invalid(field, f"{quoted(value)} is no key")
     for member in value:
@@ -121,13 +124,13 @@ def _key(value, field, name, skeleton):
 
 
 def _pose_of(rotations, root):
-    """The fields of a Pose."""
+    """Makes the fields of a Pose."""
     placed = {} if root is None else {"root_position": dict(zip("xyz", root))}
     return {**placed, "rotations": [number for rotation in rotations for number in rotation]}
 
 
 def _pose(value, field, skeleton):
-    """The rotations of all joints, where the root is, or None, and, of a jump that will stand, what to say."""
+    """Reads the rotations of all joints, the root's position or None, and a warning for a jump that will be danced standing."""
     for member in ("place", "facing"):
         if member in value and "pose" not in value:
             raise invalid(f"{field}.{member}", "goes with pose")
@@ -164,7 +167,7 @@ def _pose(value, field, skeleton):
 
 
 def _sets_feet(mask, skeleton):
-    """Whether a key says how far below the root its feet are, and so how high it stands."""
+    """Whether a key determines how far below the root its feet are, and so the root's height when it stands."""
 
     def is_set(joint):
         return joint < 0 or (joint in mask["joints"] and is_set(skeleton.parents[joint]))
@@ -173,7 +176,7 @@ def _sets_feet(mask, skeleton):
 
 
 def _held(key, hold, starts, field):
-    """The keys that hold this one, which from then on says how hard it is hit."""
+    """Returns the keys that hold this one. Sets the key's hit unless it has one."""
     if hold is None:
         return
     if "time" not in key:
@@ -184,7 +187,7 @@ def _held(key, hold, starts, field):
     key.setdefault("hit", _USUAL_HIT)
     steps = max(1, math.floor(hold / _HOLD_STEP + 1e-9))
     after = next((start for start in starts if start > key["time"]), math.inf)
-    last = math.inf if after > key["time"] + hold else after - _WAY_FROM_HOLD  # who comes meanwhile needs time
+    last = math.inf if after > key["time"] + hold else after - _WAY_FROM_HOLD  # leaves time to reach a key within the hold
     for step in range(1, steps + 1):
         time = key["time"] + hold * step / steps
         if time <= last:
@@ -232,7 +235,7 @@ def _joint(name, skeleton, field):
 
 
 def _mask(names, skeleton, field):
-    """The joints of these names, whole limbs among them."""
+    """Makes a mask of the joints with these names, some of which are whole limbs."""
     if not isinstance(names, list) or not names:
         raise invalid(field, f"{quoted(names)} is not a list of joint names")
     chosen = set()
@@ -241,7 +244,7 @@ def _mask(names, skeleton, field):
             raise invalid(field, f"{quoted(name)} is not a joint's name")
         roots = {_joint(root, skeleton, field) for root in _LIMBS.get(name, ())}
         limb = set(roots) or {_joint(name, skeleton, field)}
-        for joint, parent in enumerate(skeleton.parents):  # which are there before their children
+        for joint, parent in enumerate(skeleton.parents):  # parents precede their children
             if roots and parent in limb:
                 limb.add(joint)
         chosen |= limb
@@ -249,7 +252,7 @@ def _mask(names, skeleton, field):
 
 
 def _turn(joint, degrees, skeleton, field):
-    """A rotation: of knees and elbows their bend, of others turns about x, then y, then z."""
+    """Makes a rotation from degrees: the bend of a knee or elbow, or another joint's turns about x, then y, then z."""
     at = _joint(joint, skeleton, field)
     if joint not in _BENDS:
         most = next((most for part, most in _MOST_TURN.items() if part in joint), 180)
@@ -262,7 +265,7 @@ def _turn(joint, degrees, skeleton, field):
     x, y, _ = skeleton.offsets[3 * at : 3 * at + 3]
     length, side = math.hypot(x, y), _BENDS[joint]
     bend = math.radians(degrees)
-    return [bend * side * y / length, -bend * side * x / length, 0.0]  # about the bone's cross product with z
+    return [bend * side * y / length, -bend * side * x / length, 0.0]  # about the cross product of the bone and z
 
 
 def _require_range(joint, degrees, about, low, high, field):
@@ -271,7 +274,7 @@ def _require_range(joint, degrees, about, low, high, field):
 
 
 def _quaternion(rotation):
-    """[w, x, y, z] of an axis-angle vector."""
+    """Converts an axis-angle vector to [w, x, y, z]."""
     angle = math.hypot(*rotation)
     scale = math.sin(angle / 2) / angle if angle > 0 else 0.5
     return [math.cos(angle / 2), *(scale * one for one in rotation)]
@@ -291,7 +294,7 @@ def _turned(q, vector):
 
 
 def _log(q):
-    """The shortest axis-angle vector."""
+    """Converts a quaternion, [w, x, y, z], to the shortest axis-angle vector."""
     sign = -1 if q[0] < 0 else 1
     sine = math.hypot(*q[1:])
     scale = 2 * math.atan2(sine, sign * q[0]) / sine if sine > 0 else 2

@@ -1,4 +1,4 @@
-"""How to reach the servers, and how patiently: what the caller said, checked, as gRPC wants it."""
+"""Checks a client's options, and converts them for gRPC."""
 
 import contextlib
 import dataclasses
@@ -25,19 +25,19 @@ Path = typing.Union[str, "os.PathLike[str]"]
 
 @dataclasses.dataclass(frozen=True)
 class Options:
-    """What Client takes beside addresses; None: not given. Certificates and keys are PEM files, or their texts.
+    """The options of Client; None: not given. Certificates and keys are PEM files or their texts.
 
-    ca_certificate      of the authority to trust, with tls; None: those that gRPC trusts
-    client_certificate, client_key      with tls, where the server wants to see a certificate
-    server_name         whose certificate the server must have, with tls; None: the one of its address
-    token               sent with each call; needs tls, unless all addresses are of this machine
-    token_file          the file of it instead, read again for each call, so that it can be renewed
-    connect_timeout_s   for one attempt at one address
-    silence_s           a server of which nothing is heard for so long, not even the answer to a ping, is lost; at least 2, or 0: never
-    retry_s             how long to try again since a call last made progress; 0: not at all, so nothing goes on elsewhere. A server that
-                        asks to wait longer than is left is not waited for: the error has its retry_after
-    first_backoff_s     between tries; doubled with each, up to 2 s
-    even_draining       ask servers, too, that take no new dances: for who looks at them
+    ca_certificate      the certificate of the authority to trust, with tls; None: the authorities that gRPC trusts
+    client_certificate, client_key      the client's certificate and its key, with tls, if the server requires one
+    server_name         the name in the server's certificate, with tls; None: the host name in its address
+    token               sent with each call; requires tls, unless all addresses are on this machine
+    token_file          a file with the token, instead of token; read again for each call, so that the token can be renewed
+    connect_timeout_s   the time limit for one attempt to connect to one address
+    silence_s           a server that sends nothing for so long, not even answers to pings, counts as lost; at least 2; 0: never
+    retry_s             how long to keep retrying since a call last made progress; 0: no retries, so no resumption either. If a server asks
+                        for a longer wait than is left, the call fails at once with an error that has the server's retry_after
+    first_backoff_s     between the first attempts; doubled each time, up to 2 s
+    even_draining       also call servers that accept no new dances, to inspect them
     """
 
     tls: bool = False
@@ -54,7 +54,7 @@ class Options:
     even_draining: bool = False
 
     def check(self, addresses):
-        """Raises ChoreoError, naming the option, for those that cannot be used."""
+        """Raises ChoreoError, naming the option, for unusable options."""
         self._check_kinds()
         for name in ("connect_timeout_s", "silence_s", "retry_s", "first_backoff_s"):
             value = getattr(self, name)
@@ -87,7 +87,7 @@ class Options:
             _require_token("token", "it", self.token)
 
     def credentials(self):
-        """gRPC's, or None without TLS."""
+        """Makes gRPC's credentials; None without TLS."""
         if (self.client_certificate is None) != (self.client_key is None):
             missing = "client_key" if self.client_key is None else "client_certificate"
             raise invalid(missing, "missing; a certificate and its key go together")
@@ -110,7 +110,7 @@ class Options:
         return grpc.ssl_channel_credentials(roots, key, cert)
 
     def metadata(self):
-        """What each call carries."""
+        """The metadata of each call."""
         token = self.token
         if self.token_file is not None:
             token = read("token_file", self.token_file).decode("latin-1").rstrip()
@@ -118,14 +118,15 @@ class Options:
         return [] if token is None else [("authorization", f"Bearer {token}")]
 
     def channel_options(self):
-        """Calls take turns at all addresses of a name, but for those that say that they do not serve, or at all."""
+        """Options for gRPC's channels. Calls are distributed in turn over the addresses of a name. Addresses whose health is not serving are
+        skipped, unless even_draining."""
         service = {"loadBalancingConfig": [{"round_robin": {}}]}
         if not self.even_draining:
             service["healthCheckConfig"] = {"serviceName": "choreo.v1.Choreography"}
         options = {
             "grpc.service_config": json.dumps(service),
             "grpc.max_receive_message_length": -1,
-            # gRPC's name for the time that one attempt to connect may take.
+            # Despite its name, gRPC also uses this as the time limit for one attempt to connect.
             "grpc.min_reconnect_backoff_ms": round(1000 * self.connect_timeout_s),
             "grpc.initial_reconnect_backoff_ms": 100,
             "grpc.max_reconnect_backoff_ms": 1000,
@@ -133,7 +134,7 @@ class Options:
         if self.server_name is not None:
             options["grpc.ssl_target_name_override"] = self.server_name
         if self.silence_s > 0:
-            # Half of the time until a ping, half for its answer.
+            # Half of the time passes before a ping, the other half is for its answer.
             half = round(500 * min(self.silence_s, 1e6))
             options |= {"grpc.keepalive_time_ms": half, "grpc.keepalive_timeout_ms": half, "grpc.http2.max_pings_without_data": 0}
         return list(options.items())
@@ -149,7 +150,7 @@ _KINDS = {
 
 
 def _check_address(address):
-    """Refuses what gRPC would take for a name, or for another port."""
+    """Refuses addresses that gRPC would misread as a host name, or with another port."""
     if not isinstance(address, str) or not address:
         raise invalid("addresses", f"{address!r} is no HOST:PORT")
     if re.match("(?i)https?:", address):
@@ -164,7 +165,7 @@ def _check_address(address):
 
 
 def _is_of_this_machine(address):
-    """Nobody else hears what is said to it. A name that only begins like an address is a name."""
+    """Whether traffic to this address stays on this machine. A host name that merely begins like an IP address is a name."""
     if address.startswith("unix:"):
         return True
     for host in re.sub(r"^ipv[46]:", "", address).split(","):
@@ -179,7 +180,7 @@ def _is_of_this_machine(address):
 
 
 def _require_token(field, what, token):
-    """The value itself is never quoted."""
+    """Checks a token. Errors never quote it."""
     if len(token) > MOST_TOKEN_BYTES:
         raise invalid(field, f"{what} has {len(token)} bytes, of at most {MOST_TOKEN_BYTES}")
     if token != token.strip():
@@ -195,7 +196,7 @@ def _require_certificate(field, pem):
 
 @contextlib.contextmanager
 def _naming(field, what):
-    """Names the field of what OpenSSL does not take."""
+    """Adds the field's name to errors of OpenSSL."""
     try:
         yield
     except (ssl.SSLError, ValueError) as error:

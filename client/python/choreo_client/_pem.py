@@ -1,4 +1,4 @@
-"""Certificates and keys: PEM files, or their texts, which may be secrets and are quoted nowhere."""
+"""Reads certificates and keys: PEM files or their texts, which may be secrets and are never quoted."""
 
 import contextlib
 import tempfile
@@ -15,13 +15,14 @@ def name_of(pem):
 
 
 def content_of(field, pem):
-    """Its bytes. Raises ChoreoError for a file that cannot be read."""
+    """Returns the bytes of a PEM file or text. Raises ChoreoError for a file that cannot be read."""
     return pem.encode() if is_text(pem) else read(field, pem)
 
 
 @contextlib.contextmanager
 def file_of(pem):
-    """The path of a file with it, for OpenSSL, which takes nothing else. One of a text only its owner can read, and only meanwhile."""
+    """Returns the path of a file with the PEM, because OpenSSL accepts only files. For a text, the file is temporary, and only its owner can
+    read it."""
     if not is_text(pem):
         yield pem
         return

@@ -14,8 +14,8 @@ def pose(
     rotations: typing.Optional[typing.Mapping[str, typing.Sequence[float]]] = None,
     place: typing.Optional[typing.Sequence[float]] = None,
 ) -> choreography.Pose:
-    """The body of `skeleton` at rest, but for `rotations`, {joint name: [x, y, z] in radians}: wherever the dancer is, or at `place`, [x, z] in
-    metres. Raises ChoreoError for joints that it lacks, and what is no rotation."""
+    """Makes a pose: the rest pose of `skeleton` with these `rotations`, {joint name: [x, y, z] in radians}. It is at `place`, [x, z] in metres, or,
+    without one, wherever the dancer is. Raises ChoreoError for joints that the skeleton lacks, and for invalid rotations."""
     require_skeleton(skeleton)
     names, rotations = list(skeleton.joint_names), rotations or {}
     for joint, turn in rotations.items():
@@ -30,7 +30,7 @@ def pose(
 
 
 def require_skeleton(skeleton):
-    """Raises for what is no body of a model."""
+    """Raises ChoreoError unless the argument is a model's skeleton."""
     if not hasattr(skeleton, "joint_names"):
         raise invalid("skeleton", f"{quoted(skeleton)} is none, as in client.info().models[0].skeleton")
 

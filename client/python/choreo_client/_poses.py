@@ -1,4 +1,4 @@
-"""The library: poses that have names. Key files name them."""
+"""The library of named poses, which key files may name."""
 
 from __future__ import annotations
 
@@ -23,8 +23,8 @@ class LibraryPose(typing.NamedTuple):
 
 @functools.lru_cache(maxsize=None)
 def poses() -> typing.Tuple[LibraryPose, ...]:
-    """The poses that key files may name, by name."""
-    folder = _PACKED if _PACKED.is_dir() else pathlib.Path(__file__).resolve().parents[2] / "poses"  # a checkout's
+    """The library's poses, sorted by name, which key files may name."""
+    folder = _PACKED if _PACKED.is_dir() else pathlib.Path(__file__).resolve().parents[2] / "poses"  # the repository's folder, in a checkout
     read = (json.loads(file.read_text("utf-8")) for file in sorted(folder.glob("*.json")))
     return tuple(_pose(file) for file in read)
 
@@ -35,7 +35,7 @@ def _pose(file):
 
 
 def find(name, field):
-    """The pose of this name."""
+    """Finds the pose of this name. Raises ChoreoError, naming `field`, if there is none."""
     for one in poses():
         if one.id == name:
             return one

@@ -1,5 +1,5 @@
-"""The API's messages, made from descriptors rather than from generated code, which would want one version of protobuf. They live in a pool
-of their own: programs may have google.rpc, or stubs of this API, from elsewhere."""
+"""The API's messages. They are made from descriptors, because generated code would require one version of protobuf. They are in a descriptor
+pool of their own, because programs may have google.rpc, or stubs of this API, from elsewhere."""
 
 import pathlib
 import tempfile
@@ -33,7 +33,7 @@ def _class(descriptor):
 
 
 def contents(*files):
-    """{name: message, enum or value of an enum} of .proto files."""
+    """Returns {name: message, enum or enum value} of .proto files."""
     found = {}
     for file in map(_pool.FindFileByName, files):
         found.update((name, _class(message)) for name, message in file.message_types_by_name.items())

@@ -1,6 +1,6 @@
-"""Keys, and removals of keys, that the package's own check refuses, in dances that go on without bad keys. In place of each the server is told
-a blank: a key without a pose, at the moment that the key names. It rejects that in its turn, and again where the dance is resumed; the caller
-is told what was wrong here."""
+"""Handles keys, and removals of keys, that the package's own check refuses, in dances that continue without invalid keys. Instead of each, the
+server is sent a blank: a key without a pose at the same moment. The server rejects the blank in order, also after a resumption; the caller
+receives the reason that the check found."""
 
 import collections.abc
 
@@ -14,22 +14,22 @@ _KINDS = {"keyframe": choreography.Keyframe, "remove_keyframe": choreography.Rem
 
 class RefusedKeys:
     def __init__(self):
-        # Of all keys without a pose, in order: what was wrong here, or None for one that the caller left so.
+        # For all keys without a pose, in order: what the check found wrong, or None for a key that the caller sent so.
         self._bodiless = []
-        self._answered = 0  # of them, by the present server
+        self._answered = 0  # how many of these the present server has answered
 
     def restart(self):
-        """Another server is told all again."""
+        """Prepares for another server, which receives all requests again."""
         self._answered = 0
 
     def note(self, request):
-        """A request that is said as it is."""
+        """Notes a request that is sent unchanged."""
         key = request.keyframe
         if request.HasField("keyframe") and key.WhichOneof("when") is not None and not key.HasField("pose"):
             self._bodiless.append(None)
 
     def blank(self, request, error):
-        """What to say instead of a request for a key that `error` refuses; None where more than the key is wrong."""
+        """Returns the blank to send instead of a key's request that `error` refuses; None if more than the key is invalid."""
         kind = _kind_of(request)
         if kind is None:
             return None
@@ -41,7 +41,7 @@ class RefusedKeys:
         return choreography.StreamDanceRequest(keyframe=_without_pose(request[kind]))
 
     def take_event(self, event):
-        """Changes it to what the caller is to hear."""
+        """Translates an event, in place, for the caller."""
         rejected = event.keyframe_rejected
         if rejected.code != choreography.REJECTION_CODE_INVALID or rejected.field != "keyframe.pose":
             return
@@ -52,20 +52,20 @@ class RefusedKeys:
 
 
 def require_key(request, message):
-    """Raises for a request whose message is empty because its key is none."""
+    """Raises ChoreoError for a request whose message is empty because its key is None."""
     kind = _kind_of(request)
     if kind is not None and message.WhichOneof("request") is None:
         checked(_KINDS[kind], request[kind], kind)
 
 
 def _kind_of(request):
-    """Whether fields of a request are for a key or for its removal."""
+    """Returns which field of a request has a key or its removal."""
     named = [kind for kind in _KINDS if isinstance(request, collections.abc.Mapping) and kind in request]
     return next((kind for kind in named if request[kind] is not None), named[0] if named else None)
 
 
 def _without_pose(key):
-    """Of a key of any kind: its id and when it is to be, if it says so."""
+    """Returns the id of a key, valid or not, and its moment, if it has one."""
     fields = key if isinstance(key, collections.abc.Mapping) else {}
     name = fields.get("id")
     when = {kind: fields.get(kind) for kind in ("frame", "time", "interval_after_previous")}

@@ -1,4 +1,4 @@
-"""The servers that may be asked, one at a time, and how long to go on asking."""
+"""The servers of a client, of which one is in use, and the retries of calls."""
 
 import contextlib
 import math
@@ -18,7 +18,7 @@ LONGEST_BACKOFF = 2  # seconds
 
 
 class Server:
-    """One address, and its three calls."""
+    """One server: an address, and its three calls."""
 
     def __init__(self, address, options, credentials):
         self.address = address
@@ -39,7 +39,7 @@ class Server:
 
 
 class Replicas:
-    """Thread-safe."""
+    """The available servers, and the one in use. Thread-safe."""
 
     def __init__(self, addresses, options):
         options.check(addresses)
@@ -57,8 +57,8 @@ class Replicas:
             server.channel.close()
 
     def persist(self, attempt, until):
-        """The answers of `attempt(server, patience)`, a generator, which is asked for again, of one server after another, until it ends or
-        trying again would not help. `until`: the call's Cancellation."""
+        """Yields the answers of `attempt(server, patience)`, a generator. Calls it again, on one server after another, until it ends or a retry
+        is useless. `until`: the call's Cancellation."""
         patience = Patience(self.options, until, len(self._servers))
         while True:
             server = self._servers[self._current]
@@ -73,7 +73,7 @@ class Replicas:
                 error = ChoreoError.of(failure)
             except ChoreoError as failure:
                 error = failure
-            except ValueError:  # what closed channels raise
+            except ValueError:  # closed channels raise it
                 if not self._closed:
                     raise
             if self._closed:
@@ -87,7 +87,7 @@ class Replicas:
             until.wait(wait)
 
     def _leave(self, failed):
-        """This one failed: go on to the next, unless another call went on already. False where there is no other."""
+        """Switches from a failed server to the next, unless another call already has. Returns False if there is no other."""
         with self._lock:
             if self._servers[self._current] is failed:
                 self._current = (self._current + 1) % len(self._servers)
@@ -95,19 +95,19 @@ class Replicas:
 
 
 def _named(error, addresses):
-    """Whoever is away is named."""
+    """Adds the addresses to the error of an unreachable server."""
     if error.code == "UNAVAILABLE":
         error.args = (f"{', '.join(addresses)}: {error}",)
     return error
 
 
 class Cancellation:
-    """Ends a call, from any thread, whichever attempt it is at; and when it has to be over by itself."""
+    """Cancels a call, from any thread, during any of its attempts. Also has the call's deadline."""
 
     def __init__(self, timeout=None):
         if timeout is not None and (not isinstance(timeout, numbers.Real) or math.isnan(timeout)):
             raise invalid("timeout", f"{quoted(timeout)} is no number of seconds")
-        for_ever = timeout is None or timeout > threading.TIMEOUT_MAX  # which gRPC would take for the past
+        for_ever = timeout is None or timeout > threading.TIMEOUT_MAX  # gRPC would misread a longer timeout as past
         self.deadline = None if for_ever else time.monotonic() + timeout
         self._asked = threading.Event()
         self._lock = threading.Lock()
@@ -118,7 +118,7 @@ class Cancellation:
         return self._asked.is_set()
 
     def remaining(self):
-        """Seconds, or None: for ever."""
+        """The seconds left until the deadline; None: no deadline."""
         return None if self.deadline is None else max(0.0, self.deadline - time.monotonic())
 
     def check(self):
@@ -129,7 +129,7 @@ class Cancellation:
         self._asked.wait(seconds)
 
     def begin(self, call):
-        """An attempt, which ends with the call."""
+        """Registers an attempt, so that it ends with the call."""
         with self._lock:
             self._call = call
         if self.cancelled:
@@ -145,7 +145,7 @@ class Cancellation:
 
 
 class Patience:
-    """How long to wait before the next attempt of a call, if there is to be one."""
+    """Decides whether to retry a call, and how long to wait before."""
 
     def __init__(self, options, until, servers):
         self._options, self._until, self._servers = options, until, servers
@@ -153,15 +153,15 @@ class Patience:
         self.reset()
 
     def reset(self):
-        """There was progress: count from the beginning."""
+        """Restarts the time for retries, because the call made progress."""
         self._failures = 0  # since then
-        self._refusals = 0  # of servers that would refuse again, one after another
+        self._refusals = 0  # consecutive refusals by servers that would refuse again
         self.away = {}  # the addresses at which no server was reached since then, in order
-        # What to tell the caller. Why a server that is there would not serve says more than that another one is away.
+        # The error to report to the caller, and its server's address. A reachable server's refusal takes precedence over an unreachable one.
         self.verdict = self.verdict_of = None
 
     def next(self, failed, elsewhere, address):
-        """Seconds, or None where trying again would not help, or is no longer allowed."""
+        """Returns the seconds to wait before a retry; None if it would be useless or is no longer allowed."""
         if failed.is_away:
             self.away[address] = True
         advice = advice_for(failed)
@@ -170,11 +170,11 @@ class Patience:
             self._since = now
         if not advice.here or self.verdict is None or advice_for(self.verdict).here:
             self.verdict, self.verdict_of = failed, address
-        # Once all have refused there is no other one left to do better.
+        # Counts refusals until all servers have refused.
         self._refusals = 0 if advice.here else self._refusals + 1
         useful = advice.here or (advice.elsewhere and self._refusals < self._servers)
         left = self._options.retry_s - (now - self._since)
-        asked = 0 if elsewhere else advice.wait_s  # what a server asks for concerns itself
+        asked = 0 if elsewhere else advice.wait_s  # a server's retry delay applies only to that server
         if not useful or left <= 0 or asked > left:
             return None
         doubled = min(LONGEST_BACKOFF, self._options.first_backoff_s * 2**self._failures)

@@ -1,4 +1,4 @@
-"""A transition whose server is lost is made again by another one; what was told already is left out."""
+"""Generates a transition. If its server is lost, another one repeats it, and answers that were delivered already are left out."""
 
 import grpc
 
@@ -9,7 +9,7 @@ from ._delivery_filter import DeliveryFilter, require_same_fingerprint
 
 
 def transition(replicas, request, until):
-    """The answers of GenerateTransition to `request`."""
+    """Yields the answers of GenerateTransition to `request`."""
     asked = choreography.GenerateTransitionRequest()
     asked.CopyFrom(checked(choreography.GenerateTransitionRequest, request, "request", music_encoding(request)))
     require_sendable(asked, "send the music of its frames alone, or a compressed file")

@@ -1,4 +1,4 @@
-"""What errors say of what they were given, and what somebody who misspelt a name may have meant."""
+"""Formats values for errors, and suggests names for misspelt ones."""
 
 import difflib
 import re
@@ -6,7 +6,7 @@ import reprlib
 
 
 def quoted(value):
-    """A value, in short."""
+    """Formats a value briefly."""
     return reprlib.repr(value)
 
 
@@ -15,7 +15,7 @@ def _plain(name):
 
 
 def hint(name, names):
-    """`did you mean ...?`, or else what `names` there are."""
+    """Returns `did you mean ...?` or, if no name is near, a list of `names`."""
     asked, known = _plain(str(name)), {_plain(one): one for one in names}
     ends = [one for one in known if len(asked) > 2 and one.endswith(asked)]
     close = [asked] if asked in known else ends or difflib.get_close_matches(asked, known, 1, 0.75)

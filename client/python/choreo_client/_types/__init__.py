@@ -1,1 +1,1 @@
-"""Types of the API's messages, for editors and type checkers: building the package writes them."""
+"""Types of the API's messages, for editors and type checkers. Building the package generates them."""
