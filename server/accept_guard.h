@@ -9,29 +9,30 @@
 
 namespace choreo {
 
-/// Decides which new connections gRPC gets: none of an address that has flooded it (FrameGuard,
-/// ResetGuard), or has more reset calls than can be ended, or connects too fast. A handshake costs
-/// CPU time that dances need, and each connection has its own bound on frames. For one thread.
+/// Decides which new connections are passed to gRPC. Refuses an address that has flooded the server
+/// (FrameGuard, ResetGuard), has reset more calls than can be ended, or connects too fast.
+/// Handshakes cost CPU time that dances need, and each connection has its own limit on frames. Not
+/// thread-safe.
 class AcceptGuard {
  public:
   using Clock = std::chrono::steady_clock;
 
-  /// `tally` counts what is decided. Both must outlive this.
+  /// `tally` counts the decisions. Both must outlive this.
   AcceptGuard(const ResetGuard& resets, Tally& tally) : resets_(resets), tally_(tally) {}
 
-  /// Whether this socket may go on to gRPC; logs if it may not, once a second.
+  /// Whether this socket may be passed to gRPC. Logs refusals, at most once a second.
   bool Takes(int connection);
-  /// Whether the address is not too fast.
+  /// Whether the address connects slowly enough.
   bool TakesFrom(const std::string& address, Clock::time_point now);
 
-  /// All clients behind one address, whose server has begun anew, at once; after that as many a
-  /// second.
+  /// The allowed burst of connections from one address, for clients that reconnect after a server's
+  /// restart, and the sustained rate after it.
   static constexpr int kAtOnce = 512, kPerSecond = 64;
 
  private:
   const ResetGuard& resets_;
   Tally& tally_;
-  /// When all that an address has used of its rate is paid back; later ones only.
+  /// By address: when it will have regained its full burst. Holds future times only.
   std::map<std::string, Clock::time_point> paid_back_;
   Clock::time_point next_sweep_, next_report_;
 };

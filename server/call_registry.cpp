@@ -9,7 +9,8 @@ namespace {
 
 constexpr double kShareOfLast = 0.1;  // weight of the latest call in the running mean
 constexpr double kLongestWait = 60;
-/// A caller counts as there for this long, the longest wait that it may have been told.
+/// How long a caller counts as connected after a call: the longest retry delay that it may have
+/// received.
 constexpr std::chrono::seconds kThere{60};
 
 const char* const kGoingAway = "the server is going away; try another one";
@@ -39,7 +40,7 @@ void CallRegistry::Enter(const std::shared_ptr<Call>& call, std::string party) {
   const auto found = of_party_.find(party);
   const int calls = found == of_party_.end() ? 0 : found->second, most = MostOf(party);
   if (calls >= most) {
-    // A caller that may have all places lacks none.
+    // A caller that may use all places has no limit of its own.
     if (most >= limits_.calls) throw Full(calls, limits_.calls);
     throw Refused(Refusal::kStreamsOfPeer, party + " has " + std::to_string(calls) +
                                                " calls in progress, of at most " +
@@ -220,7 +221,7 @@ double CallRegistry::Spread(double seconds) {
 double CallRegistry::RetryAfter() {
   const std::lock_guard lock(mutex_);
   const int calls = std::max(1, admitted_);
-  refused_ = std::min(refused_ + 1, calls);  // callers that left for good make nobody wait for ever
+  refused_ = std::min(refused_ + 1, calls);  // bounds the delay when callers never return
   return Spread(mean_seconds_ * refused_ / calls);
 }
 

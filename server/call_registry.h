@@ -28,14 +28,13 @@ struct CallProgress {
 class Call {
  public:
   virtual ~Call() = default;
-  /// Ends the call with this error once its client took the answer on its way. Any thread may call
-  /// it.
+  /// Ends the call with this error once its client has taken the answer being sent. Thread-safe.
   virtual void Abort(const Error& error) = 0;
-  /// Ends an aborted call even if its client reads nothing. Any thread may call it.
+  /// Ends an aborted call even if its client reads nothing. Thread-safe.
   virtual void Reset() = 0;
-  /// Ends the call after its queued answers if its token has been revoked. Any thread may call it.
+  /// Ends the call after its queued answers if its token has been revoked. Thread-safe.
   virtual void EndIfRevoked() = 0;
-  /// Logs the call as lost: the process ends at once. Any thread may call it.
+  /// Logs the call as lost, because the process ends at once. Thread-safe.
   virtual void GiveUp() noexcept = 0;
   virtual CallProgress progress() const = 0;
 };
@@ -43,7 +42,7 @@ class Call {
 /// Limits on clients' calls and idle time.
 struct CallLimits {
   int calls = 0;
-  /// The most calls of one caller, those without a first message included: while another caller is
+  /// The most calls of one caller, including those without a first message: while another caller is
   /// connected, and while none is.
   int calls_of_peer = 0, calls_of_lone_peer = 0;
   std::chrono::milliseconds first_message{};
@@ -54,22 +53,22 @@ struct CallLimits {
 /// The status a call ends with when another server can resume it.
 Error ResumeElsewhere();
 
-/// The calls in progress: limits their number and idle time, and ends them when the server drains.
-/// A call enters when it begins and is admitted with its first message, so silent clients take
-/// nobody's place. Thread-safe.
+/// The calls in progress. Limits their number and idle time, and ends them when the server drains.
+/// A call enters when it begins, and is admitted with its first message, so that silent clients do
+/// not take others' places. Thread-safe.
 class CallRegistry {
  public:
   explicit CallRegistry(const CallLimits& limits) : limits_(limits) {}
 
-  /// `party`: calls with the same one are counted together (Caller::Party). Throws Refused if it
-  /// has too many, and after StopAdmitting.
+  /// `party`: the caller to whom the call is counted (Caller::Party). Throws Refused if the caller
+  /// has too many calls, and after StopAdmitting.
   void Enter(const std::shared_ptr<Call>& call, std::string party);
-  /// Throws Refused when full, and after StopAdmitting. Call it once for each call.
+  /// Admits a call, once. Throws Refused when full, and after StopAdmitting.
   void Admit(const Call* call);
-  /// Accepts calls that never entered.
+  /// Removes a call. Ignores calls that never entered.
   void Leave(const Call* call);
 
-  /// Ends calls that were idle for too long. Call regularly.
+  /// Ends calls that have been idle for too long. Call regularly.
   void EndIdle();
 
   /// Ends calls whose tokens have been revoked. Call regularly.
@@ -80,27 +79,28 @@ class CallRegistry {
 
   /// Admits no more calls, and ends those not yet admitted.
   void StopAdmitting();
-  /// Streams end with their next continuation, as ResumeElsewhere.
+  /// From now on, streams end with ResumeElsewhere after their next continuation.
   void EndAtTransitions() { ends_at_transitions_ = true; }
   bool ends_at_transitions() const { return ends_at_transitions_; }
   void AbortAll(const Error& error);
   bool WaitUntilEmpty(std::chrono::milliseconds limit) const;
 
-  /// Whether a caller other than `party` has a call, or had one within the last minute: a refused
-  /// caller retries, and must find a place then.
+  /// Whether a caller other than `party` has a call, or had one within the last minute. The minute
+  /// keeps a place for a refused caller's retry.
   bool HasRival(const std::string& party) const;
 
   bool admitting() const;  ///< until StopAdmitting
   int count() const;       ///< admitted
-  /// A caller's, including those without a first message.
+  /// The calls of one caller, including those without a first message.
   int CountOf(const std::string& party) const;
   const CallLimits& limits() const { return limits_; }
-  /// The share of a limit in use: that of all calls or that of the busiest caller, the larger.
+  /// The share in use of the limit on all calls or of that on the busiest caller, whichever is
+  /// larger.
   double utilisation() const;
-  /// Seconds, 1 to 60, after which a refused call should retry: by then as many calls have ended as
-  /// were refused before it. Spread at random, so that retries do not come together.
+  /// Seconds, 1 to 60, after which a refused call should retry: the expected time until as many
+  /// calls have ended as were refused before it. Randomised, so that retries do not coincide.
   double RetryAfter();
-  /// The same for a client that has other servers to try.
+  /// RetryAfter for a client that has other servers to try.
   double RetryElsewhere();
 
  private:
@@ -112,7 +112,7 @@ class CallRegistry {
     bool admitted = false;
   };
 
-  /// When a caller last came.
+  /// A caller's latest arrival.
   struct Visit {
     std::string party;
     Clock::time_point at;

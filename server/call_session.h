@@ -24,8 +24,8 @@
 namespace choreo {
 
 /// Base of both streaming calls' sessions: outbox, dance and clock. A session is the sink of its
-/// `Dance`, a DanceStream or a TransitionGroup, and is shared by the reactor and the workers'
-/// threads. Thread-safe, except functions marked for the message thread, which handles the call's
+/// `Dance`, a DanceStream or a TransitionGroup. The reactor and the workers' threads share it.
+/// Thread-safe, except for functions restricted to the message thread, which handles the call's
 /// messages one at a time.
 template <class Response, class Dance>
 class CallSession : public Call {
@@ -51,7 +51,7 @@ class CallSession : public Call {
   void Reset() override { outbox_.Reset(); }
   CallProgress progress() const override { return outbox_.progress(); }
 
-  // Answers that wait go out, the last continuation among them.
+  // Waiting answers, including the last continuation, are still sent.
   void EndIfRevoked() override {
     if (!serving_.tokens.IsRevoked(token_)) {
       revoked_since_.reset();
@@ -71,7 +71,8 @@ class CallSession : public Call {
     CancelDance();
   }
 
-  /// Identifies the caller; call first. False if the call ends because of its token.
+  /// Identifies the caller; call first. Returns false if the token is not valid, which ends the
+  /// call.
   bool Authenticate(std::string_view authorization) {
     const grpc::Status status = serving_.tokens.FindHolder(authorization, &caller_.holder, &token_);
     if (status.ok()) return true;
@@ -80,7 +81,7 @@ class CallSession : public Call {
     return false;
   }
 
-  /// The party with whose calls it is counted.
+  /// The party to whom this call is counted.
   std::string party() const { return caller_.Party(); }
 
   /// Counts the call as in progress. Call on the message thread with the first message. Throws what
@@ -90,9 +91,9 @@ class CallSession : public Call {
     serving_.calls.Admit(this);
   }
 
-  /// Call when the reactor is done: frees the dance, which holds this session, and counts the call.
+  /// Call when the reactor is done. Frees the dance, which holds this session, and counts the call.
   /// `lost`: the status was never sent. gRPC reports a dead connection as a half-close first, so
-  /// the dance may have ended well while nobody was listening.
+  /// the dance may have finished normally with nobody connected.
   void Release(bool lost) noexcept try {
     CancelDance();
     serving_.frames.GiveBack(this);
@@ -133,7 +134,7 @@ class CallSession : public Call {
     dance->Cancel();
   }
 
-  /// An answer that was queued then has gone out. One call at a time.
+  /// Called, one call at a time, after an answer was sent. `queued`: when it was queued.
   virtual void OnSent(const Response& /*answer*/, Clock::time_point /*queued*/) {}
 
   /// Runs `action`; ends the call if it throws.
@@ -149,7 +150,7 @@ class CallSession : public Call {
     }
   }
 
-  /// Throws Error(kCancelled) if the call is over. Long work calls this.
+  /// Throws Error(kCancelled) if the call is over. Long-running work calls this.
   void RequireOpen() const {
     if (!outbox_.open()) throw Error(ErrorCode::kCancelled, "", "the call is over");
   }
@@ -175,8 +176,8 @@ class CallSession : public Call {
     outbox_.Send(std::move(response));
   }
 
-  /// Ends the call with this status after all queued answers. The dance's promised time is free for
-  /// other calls before its client gets the status.
+  /// Ends the call with this status after all queued answers. Frees the dance's share of the
+  /// machine for other calls before the client gets the status.
   void End(const grpc::Status& status) {
     serving_.frames.GiveBack(this);
     outbox_.Close(status);
@@ -190,7 +191,7 @@ class CallSession : public Call {
     }
   }
 
-  /// The error's status, with a delay for RetryInfo.
+  /// The gRPC status for an error, including RetryInfo's delay.
   grpc::Status StatusOf(const Error& error) const {
     const std::optional<Refusal> refusal = RefusalIn(error);
     const bool waits = refusal && *refusal != Refusal::kDraining;
@@ -204,7 +205,7 @@ class CallSession : public Call {
     seed_ = seed;
   }
 
-  /// Logs and counts a dance that goes on in this call. Message thread.
+  /// Logs and counts a dance that this call resumes. Message thread.
   void NoteResumed(int64_t frame) {
     ++serving_.tally.dances_resumed;
     spdlog::info("{} {} stream {} resumes {} at frame {}", method_, caller_.peer, caller_.stream_id,
@@ -213,7 +214,8 @@ class CallSession : public Call {
   }
   bool IsNamedResumed() const { return !caller_.resumed_from.empty(); }
 
-  /// Only the sink may call the next two: its calls come one at a time.
+  /// CountFrames and TimingOf may only be called from the sink's functions, which run one at a
+  /// time.
   void CountFrames(size_t frames) {
     if (frames_ == 0) first_frame_s_ = Elapsed();
     frames_ += static_cast<int64_t>(frames);
@@ -238,7 +240,7 @@ class CallSession : public Call {
                           .first_frame_s = first_frame_s_,
                           .model = model_,
                           .seed = seed_,
-                          // A refusal after the end does not count.
+                          // A refusal after the call's end does not count.
                           .refusal = outbox_.status().ok() ? std::nullopt : refusal_});
   }
 
@@ -270,24 +272,25 @@ class CallSession : public Call {
     if (current) current->Cancel();
   }
 
-  /// A file of tokens that is written in pieces lacks some meanwhile.
+  /// How long a token must be missing from the file: a file being rewritten lacks some for a
+  /// moment.
   static constexpr std::chrono::seconds kRevoking{2};
 
   Outbox<Response> outbox_;
   const std::string method_;
   Caller caller_;         // written before the call enters
-  Tokens::Hash token_{};  // the same
+  Tokens::Hash token_{};  // written before the call enters
   const Clock::time_point start_ = Clock::now();
   bool admitted_ = false;                           // message thread
   std::optional<Clock::time_point> revoked_since_;  // the thread that rereads tokens
 
-  mutable std::mutex mutex_;  // guards the seven below
+  mutable std::mutex mutex_;  // guards the members from model_ to refusal_
   std::string model_;
   std::optional<uint64_t> seed_;
   bool counted_ = false;
   std::shared_ptr<Dance> dance_;  // null before the configuration and after the end
   bool ended_ = false;
-  bool paused_ = false;  // the outbox's wish, with or without a dance
+  bool paused_ = false;  // requested by the outbox, with or without a dance
   std::optional<Refusal> refusal_;
 
   std::atomic<int64_t> frames_ = 0;

@@ -69,7 +69,7 @@ std::string PeerOf(int connection) {
 
 std::string PeerOf(const grpc::ServerContextBase& call) {
   std::string peer = call.peer();
-  // A scope stands behind a percent sign: "fe80::1%eth0".
+  // A scope follows a percent sign: "fe80::1%eth0".
   using Code = std::pair<const char*, const char*>;
   for (const auto& [code, sign] : {Code("%5B", "["), Code("%5D", "]"), Code("%25", "%")}) {
     if (const size_t at = peer.find(code); at != peer.npos) peer.replace(at, 3, sign);

@@ -7,20 +7,21 @@
 
 namespace choreo {
 
-/// The caller of a call, for the log.
+/// Who made a call, for the log.
 struct Caller {
   std::string peer;    ///< an address and a port
   std::string holder;  ///< its token's holder; empty without a token
-  /// Its W3C traceparent's ids, hexadecimal, which connect this call with its client's work. Empty
-  /// without a valid one.
+  /// Hexadecimal ids from the call's W3C traceparent header, which link the call to the client's
+  /// trace. Empty without a valid header.
   std::string trace_id, span_id;
-  /// Identifies a call that dances: 16 hexadecimal digits, sent to the client as kStreamIdHeader.
+  /// Identifies a call that dances. 16 hexadecimal digits, sent to the client as kStreamIdHeader.
   std::string stream_id = {};
-  /// The stream_id of the call in which the dance began, as the client says in kResumedFromHeader;
-  /// sent back to it.
+  /// The stream_id of the call in which the dance began, as stated by the client in
+  /// kResumedFromHeader. Sent back to the client.
   std::string resumed_from = {};
 
-  /// The name for calls that are counted together: the token's holder, or else an address.
+  /// The name under which calls are counted together: the token's holder or, without one, the
+  /// address.
   std::string Party() const;
 };
 
@@ -32,13 +33,14 @@ bool IsStreamId(std::string_view text);
 /// A connection's peer, an address and a port as in "ipv6:[::1]:60092"; empty for other
 /// descriptors.
 std::string PeerOf(int connection);
-/// A call's peer in the same form; gRPC's own has %5B and %5D for the brackets.
+/// A call's peer, in the form of a connection's peer. gRPC itself writes %5B and %5D for the
+/// brackets.
 std::string PeerOf(const grpc::ServerContextBase& call);
 
 /// A peer without its port.
 std::string AddressOf(const std::string& peer);
 
-/// Everything but the holder.
+/// The caller of a call, without the holder.
 Caller CallerOf(const grpc::CallbackServerContext& context);
 
 /// The value of a header; empty unless it exists exactly once.

@@ -51,7 +51,7 @@ std::optional<bool> CertificateFiles::Refresh() {
     Content now = Read();
     const bool has_new_pair = now.pair != used_.pair,
                has_new_client_ca = now.client_ca != used_.client_ca;
-    // One that expired in use keeps no other from being renewed.
+    // An expired file already in use does not block the renewal of another.
     if (has_new_pair) RequireValid("--tls-cert", certificate_, now.expires);
     if (has_new_client_ca)
       RequireValid("--tls-client-ca", client_ca_source_, now.client_ca_expires);

@@ -90,7 +90,8 @@ bool IsOfAService(const std::string& variable) {
   return std::regex_match(variable, kPattern);
 }
 
-// The one of `known` that a variable may mean: a near word, one that contains it, or a part of it.
+// The name in `known` that a misspelt variable may mean: a similar one, one that contains it, or
+// one that it contains.
 std::string MeantBy(const std::string& name, const std::vector<std::string>& known) {
   constexpr size_t kShortestPart = 3;
   Nearest meant(name);
@@ -106,8 +107,8 @@ std::string MeantBy(const std::string& name, const std::vector<std::string>& kno
   return "";
 }
 
-// Throws for a misspelt variable: the setting would silently be missing. Returns those unknown to
-// us.
+// Throws for a misspelt variable, because its setting would silently be ignored. Returns other
+// unknown variables.
 std::vector<std::string> CheckVariables(const CLI::App& app) {
   const std::string prefix = "CHOREO_";
   std::vector<std::string> known, unknown;
@@ -115,7 +116,7 @@ std::vector<std::string> CheckVariables(const CLI::App& app) {
     const std::string variable = option->get_envname();
     if (variable.starts_with(prefix)) known.push_back(variable.substr(prefix.size()));
   }
-  // Clients may share our environment.
+  // Variables of clients may be in the same environment.
   constexpr std::array<std::string_view, 7> kOfClients = {
       "SERVER", "TLS", "CA", "CLIENT_CERT", "CLIENT_KEY", "SERVER_NAME", "TOKEN_FILE"};
   for (char** at = environ; *at != nullptr; ++at) {
@@ -135,7 +136,7 @@ std::vector<std::string> CheckVariables(const CLI::App& app) {
   return unknown;
 }
 
-// Whether errors should be JSON, although parsing may not have come as far as --log-format.
+// Whether errors should be JSON, even if parsing stopped before --log-format.
 bool WantsJson(int argc, const char* const* argv) {
   const std::vector<std::string> words(argv, argv + argc);
   for (size_t i = 0; i < words.size(); ++i) {
@@ -146,8 +147,8 @@ bool WantsJson(int argc, const char* const* argv) {
   return variable != nullptr && std::string_view(variable) == "json";
 }
 
-// "FILE:LINE: " if `error`, "--NAME: ...", is about a setting that the file has and the command
-// line has not.
+// "FILE:LINE: " if `error`, "--NAME: ...", concerns a setting from the file that the command line
+// does not override.
 std::string PlaceInFile(const std::string& error, const TomlFile& file, int argc,
                         const char* const* argv) {
   const std::string flag = error.substr(0, error.find(':'));
@@ -179,7 +180,7 @@ void ServerConfig::Validate() const {
                                          "exclude it");
   ParseEngineKind(engine, "--engine");
   CheckKernels(kernels);
-  // Existence is checked when they are used; `auto` takes whatever exists.
+  // Devices are checked for existence when they are used; `auto` uses whatever exists.
   if (device != "auto")
     ParseDevices(device, {.cuda_build = true, .cuda_devices = std::numeric_limits<int>::max()});
   CheckNumbers(*this);

@@ -14,7 +14,7 @@ namespace {
 
 using CLI::detail::to_string;
 
-/// A setting that is a number.
+/// A numeric setting.
 struct NumberSetting {
   const char* flag;
   double (*of)(const ServerConfig&);
@@ -86,7 +86,7 @@ std::string Miscounted(const std::string& said) {
   return flag + ": " + said.substr(at + kReceived.size()) + " values are more than 1";
 }
 
-/// `name` of a setting that does not exist.
+/// The error for a setting `name` that does not exist.
 std::string Unknown(const CLI::App& app, const std::string& where, const std::string& name) {
   Nearest meant(name);
   for (const CLI::Option* option : app.get_options()) {
@@ -106,7 +106,7 @@ void CheckNumbers(const ServerConfig& config) {
     if (value >= setting.least && value <= setting.most) continue;
     throw InvalidArgument(setting.flag, to_string(value) + " is not in " + RangeOf(setting));
   }
-  // Beyond it the setting would limit nothing.
+  // Above this bound the setting would limit nothing.
   if (config.max_streams > 0 && config.max_streams_of_peer > config.max_streams) {
     throw InvalidArgument("--max-streams-of-peer",
                           std::to_string(config.max_streams_of_peer) + " is not in [0, " +

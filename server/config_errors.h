@@ -8,11 +8,11 @@
 
 namespace choreo {
 
-/// Throws Error(kInvalidArgument) for the first number outside of its range.
+/// Throws Error(kInvalidArgument) for the first number outside its range.
 void CheckNumbers(const ServerConfig& config);
 
-/// What CLI11 says against a command line or a file, as our own errors say it: the setting, its
-/// value, and what is allowed.
+/// Rewrites a CLI11 error about a command line or a file in the form of our own errors: the
+/// setting, its value, and what is allowed.
 std::string InOurWords(const CLI::App& app, const TomlFile& file, const CLI::ParseError& error);
 
 }  // namespace choreo

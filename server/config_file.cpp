@@ -11,7 +11,7 @@
 namespace choreo {
 namespace {
 
-/// As on the command line; empty if it has no such form.
+/// A value as written on the command line; empty if it has no such form.
 std::string TextOf(const toml::node& node) {
   if (const auto text = node.value_exact<std::string>()) return *text;
   if (const auto whole = node.value_exact<int64_t>()) return std::to_string(*whole);
@@ -28,10 +28,10 @@ bool IsToml(const std::string& line) try {
   return false;
 }
 
-/// What a line that is no TOML lacks; empty unless it is likely that. A line that repeats a setting
+/// What an invalid line of TOML probably lacks; empty if unknown. A line that repeats a setting
 /// lacks nothing.
 std::string MissingMarks(const std::string& text, size_t number) {
-  // Also an address in brackets, which begins like a list.
+  // Matches an address in brackets, too, which begins like a list.
   static const std::regex kBare(R"(^\s*([\w-]+)\s*=\s*(\[[0-9a-fA-F]*:|[^\s"'\[{#]))");
   std::istringstream lines(text);
   std::string line;

@@ -8,21 +8,22 @@
 
 namespace choreo {
 
-/// Reads the file of --config, which is TOML, for CLI11. Its own reader knows no lines, and takes
-/// an open quotation mark for a part of the text.
+/// Reads the TOML file of --config for CLI11. CLI11's own reader reports no line numbers and treats
+/// an unclosed quotation mark as text.
 class TomlFile final : public CLI::Config {
  public:
-  /// `app` has --config, and outlives this.
+  /// `app` must define --config and outlive this.
   explicit TomlFile(const CLI::App& app) : app_(app) {}
 
-  /// Throws Error(kInvalidArgument, "FILE:LINE") for what is no TOML or cannot be a setting.
+  /// Throws Error(kInvalidArgument, "FILE:LINE") for invalid TOML and for values that no setting
+  /// can have.
   std::vector<CLI::ConfigItem> from_config(std::istream& input) const override;
   std::string to_config(const CLI::App* /*app*/, bool /*defaults*/, bool /*describe*/,
                         std::string /*prefix*/) const override {
     return "";
   }
 
-  /// "FILE:LINE: " of a setting, such as "workers", that the file has; else empty.
+  /// "FILE:LINE: " for a setting in the file, such as "workers"; empty if the file lacks it.
   std::string PlaceOf(const std::string& setting) const;
 
  private:

@@ -92,7 +92,7 @@ void AddOptions(CLI::App& app, ServerConfig& config) {
                      ". Without it, the fastest here. Replicas on different CPUs take over each "
                      "other's dances where all have the slowest one's.")
       ->envname("CHOREO_KERNELS");
-  // Neither a variable nor a line in a file keeps a server from serving.
+  // Only available on the command line: a variable or a file must not keep a server from serving.
   app.add_flag(
          "--check", config.check,
          "Read settings, models, certificates and tokens as a start would, say \"ok\" or what "

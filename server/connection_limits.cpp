@@ -8,12 +8,12 @@
 namespace choreo {
 namespace {
 
-/// Calls per connection beyond max_streams, which serve to refuse calls on a full server, and
-/// health checks. Further calls wait at the client.
+/// Calls per connection in addition to max_streams. They allow health checks, and let a full server
+/// refuse calls. Further calls wait at the client.
 constexpr int kSpareCalls = 100;
-/// Limit from accepting a connection to its TLS handshake and HTTP/2's settings.
+/// The time limit for a new connection's TLS handshake and HTTP/2 settings.
 constexpr int kHandshakeMs = 5'000;
-/// A connection without calls is closed; clients make a new one when they need it.
+/// The time after which a connection without calls is closed. Clients reconnect when they need to.
 constexpr int kIdleMs = 300'000;
 
 }  // namespace
@@ -27,8 +27,8 @@ void LimitConnections(const ServerConfig& config, grpc::ServerBuilder* builder) 
   builder->AddChannelArgument(GRPC_ARG_MAX_CONCURRENT_STREAMS, CallsOfConnection(config));
   builder->AddChannelArgument(GRPC_ARG_SERVER_HANDSHAKE_TIMEOUT_MS, kHandshakeMs);
   builder->AddChannelArgument(GRPC_ARG_MAX_CONNECTION_IDLE_MS, kIdleMs);
-  // The first argument refuses calls that announce compression; the second makes sure that nothing
-  // is decompressed.
+  // The first argument refuses calls that announce compression; the second ensures that nothing is
+  // decompressed.
   builder->AddChannelArgument(GRPC_COMPRESSION_CHANNEL_ENABLED_ALGORITHMS_BITSET,
                               1 << GRPC_COMPRESS_NONE);
   builder->AddChannelArgument(GRPC_ARG_ENABLE_PER_MESSAGE_DECOMPRESSION, 0);

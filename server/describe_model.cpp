@@ -11,7 +11,8 @@
 namespace choreo {
 namespace {
 
-/// Those measured (docs/results.md) of this training of a shipped checkpoint, or none.
+/// The values measured (docs/results.md) for a shipped checkpoint with this training; none for
+/// others.
 std::optional<StyleFigures> FindStyleFigures(std::string_view weights) {
   constexpr std::pair<std::string_view, StyleFigures> kMeasured[] = {
       {"26bfadad19dc69d0590692f89aafbedb", {7.9, 6.25, 7.1}},     // default: 16 moods

@@ -5,7 +5,7 @@
 
 namespace choreo {
 
-/// What clients are told of a model. Thread-safe.
+/// A model's description for clients. Thread-safe.
 ModelDescription DescribeModel(const ModelInfo& model);
 
 }  // namespace choreo

@@ -34,10 +34,10 @@ constexpr const char* kMethods[] = {"StreamDance", "GenerateTransition", Tally::
 /// The metric families of one scrape, in order.
 class Families {
  public:
-  /// Sets the prefix of the families that follow; process metrics have names shared by all
+  /// Sets the prefix of the following families. Process metrics use the names common to all
   /// programs.
   void SetPrefix(const char* prefix) { prefix_ = prefix; }
-  /// Begins a family; the next calls of Add belong to it.
+  /// Begins a family, to which the next calls of Add belong.
   void Begin(const char* name, const char* help, MetricType type) {
     families_.push_back(
         {.name = std::string(prefix_) + name, .help = help, .type = type, .metric = {}});
@@ -91,7 +91,7 @@ class Figures {
  private:
   void AddCalls(const std::map<std::string, Models::Figures>& models, Families& out) const {
     out.Begin("calls_total", "Calls that are over, by method and status.", MetricType::Counter);
-    // Reports all series from the start: rates miss a step at which a series begins.
+    // Reports all series from the start, because Prometheus' rates miss a series' first value.
     const Tally::Calls counted = serving_.tally.calls();
     for (const char* method : kMethods) {
       for (int code = 0; code <= grpc::StatusCode::UNAUTHENTICATED; ++code) {
@@ -102,7 +102,7 @@ class Figures {
       }
     }
     out.Begin("call_seconds", "How long calls took, by method and status.", MetricType::Histogram);
-    // Those that ended well have a series from the start; others would be many.
+    // Only successful calls have series from the start, because other statuses would be many.
     auto durations = serving_.tally.seconds();
     for (const char* method : kMethods)
       durations.try_emplace({method, grpc::StatusCode::OK},
@@ -170,7 +170,7 @@ class Figures {
     out.Add(serving_.tally.support.snapshot());
   }
 
-  // Each is a series for ever, so their number is bounded.
+  // Each name is a permanent series, so their number is limited.
   void AddHolders(Families& out) const {
     constexpr size_t kMostHolders = 100;
     const std::vector<std::string> names = serving_.tokens.Names(kMostHolders);
@@ -294,10 +294,10 @@ class Figures {
     }
   }
 
-  // These are the names that Prometheus clients use in all languages.
+  // Prometheus clients in all languages use these names.
   static void AddProcess(Families& out) {
     const pid_t self = getpid();
-    // Computed once: clocks drift, and each change of it is an alert.
+    // Computed once, because clocks drift and each change of this value raises an alert.
     static const double start = StartSeconds(self);
     rlimit descriptors{};
     getrlimit(RLIMIT_NOFILE, &descriptors);

@@ -6,7 +6,7 @@
 
 namespace choreo {
 
-/// A server's and its process's figures, in Prometheus' format. Thread-safe.
+/// The metrics of a server and its process, in Prometheus' text format. Thread-safe.
 std::string FiguresOf(const Serving& serving);
 
 }  // namespace choreo

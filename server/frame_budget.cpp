@@ -73,7 +73,7 @@ double FrameBudget::LoadOf(const Charge& charge) const {
 }
 
 double FrameBudget::LoadOf(const std::string* party, const Charge* more) const {
-  // Sums frames before their cost: equal calls then add up exactly.
+  // Sums frames first and multiplies by their cost afterwards, so that equal calls add up exactly.
   std::map<const SampleQueue*, double> frames;
   double danced = 0;
   const auto add = [&](const Charge& charge) {

@@ -11,45 +11,46 @@
 
 namespace choreo {
 
-/// Shares of the machine's time that may be promised.
+/// The shares of the machine's time that may be reserved.
 struct FrameShares {
-  double of_all = 0.85;  ///< all calls' share; the rest is for others and for peaks
-  /// One caller's share while another is there, and while none is.
+  double of_all = 0.85;  ///< for all calls; the rest is for other programs and for peaks
+  /// For one caller, while another is connected and while none is.
   double of_peer = 0.85, of_lone_peer = 0.85;
 };
 
-/// Promises the machine's time to calls as they come. Each is charged its frames at their present
-/// cost until it gives them back: the engines' (SampleQueue::LoadOf) and, for a dance, that of
-/// serving it. The machine serves as many calls as it can, and refuses the rest before they begin.
-/// Models share the devices, so their times add up; a charged model outlives its calls. `party`:
-/// calls with the same one are counted together (Caller::Party). Thread-safe.
+/// Reserves the machine's time for calls as they arrive. Each call is charged for its frames at
+/// their current cost until GiveBack: the engines' cost (SampleQueue::LoadOf) and, for a dance, the
+/// cost of serving it. The machine serves as many calls as it can, and refuses the rest before they
+/// begin. Models share the devices, so their times add up. A charged model outlives its calls.
+/// `party`: the caller to whom a call is counted (Caller::Party). Thread-safe.
 class FrameBudget {
  public:
-  /// `has_rival`: whether another caller than this party is there. While one is, a caller also
-  /// leaves time for one call like its own. `serving`: null charges nothing for it.
+  /// `has_rival`: whether a caller other than this party is connected. While one is, a caller must
+  /// leave time for one more call like its own. `serving`: the cost of serving; null charges
+  /// nothing for it.
   explicit FrameBudget(const FrameShares& shares,
                        std::function<bool(const std::string& party)> has_rival = {},
                        const ServingCost* serving = nullptr)
       : shares_(shares), has_rival_(std::move(has_rival)), serving_(serving) {}
 
-  /// Charges a dance, which runs at playing speed, whenever its music comes. Throws Refused if it
-  /// exceeds what is left. A lone caller is always accepted: slow engines serve one at a time. Call
-  /// it once per call, which any address of its own identifies.
+  /// Charges a dance, at playing speed however fast its music arrives. Throws Refused if it exceeds
+  /// the time left. A lone caller's first call is always accepted, so that slow engines can serve
+  /// one at a time. Call once per call. `call`: any address that identifies the call.
   void TakeDance(const void* call, const SampleQueue& model, const std::string& party);
-  /// Charges a transition of this many frames, candidates included; once per call, too. Charges at
-  /// most half of all time, however long it is: it yields to dances anyway.
+  /// Charges a transition of this many frames, summed over its candidates. Call once per call.
+  /// Charges at most half of all time, because a transition yields to dances anyway.
   void TakeTransition(const void* call, const SampleQueue& model, const std::string& party,
                       int frames);
-  /// Accepts calls that took nothing.
+  /// Ends a call's charge. Ignores calls that were not charged.
   void GiveBack(const void* call) noexcept;
 
-  /// Whether nobody was charged a transition since the last OnlyDanced.
+  /// Whether no transition was charged since the previous call of OnlyDanced.
   bool OnlyDanced();
 
-  /// The promised share of the machine's time, by model name.
+  /// The reserved share of the machine's time, by model name.
   std::map<std::string, double> loads() const;
-  /// The share of the budget in use, by all calls or by the busiest caller, the larger. 1 once
-  /// another call as large as the largest would be refused; 0 if the budget refuses nobody.
+  /// The share of the budget in use by all calls or by the busiest caller, whichever is larger. 1
+  /// once another call as large as the largest would be refused; 0 if the budget refuses nobody.
   double utilisation() const;
 
  private:
@@ -63,10 +64,11 @@ class FrameBudget {
   void Take(const void* call, Charge charge);
   double LoadOf(const Charge& charge) const;
 
-  // The load of all calls, or of one caller's, and of one more. Requires mutex_.
+  // The load of all calls or, with `party`, of one caller's, plus that of one more. Requires
+  // mutex_.
   double LoadOf(const std::string* party, const Charge* more = nullptr) const;
 
-  // The most that this caller may take while calls of `cost` come. Does not require mutex_.
+  // The most that this caller may reserve when its next call costs `cost`. Does not require mutex_.
   double MostOf(const std::string& party, double cost) const;
 
   const FrameShares shares_;

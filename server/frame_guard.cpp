@@ -43,7 +43,7 @@ Guardeds& All() {
 }
 
 std::atomic<uint64_t> header_floods = 0, empty_frame_floods = 0;
-/// Whose bytes this thread has read last; gRPC decrypts them next.
+/// The connection whose bytes this thread read last; gRPC decrypts them next.
 thread_local std::weak_ptr<Guarded> last_read;
 
 uint64_t CookieOf(int connection) {
@@ -63,7 +63,7 @@ std::shared_ptr<Guarded> Find(int connection) {
   return nullptr;
 }
 
-/// One line a second, as floods come many at a time.
+/// Logs at most one line a second, because floods come in groups.
 void Tell(FrameMeter::Flood flood, const std::string& peer) {
   static std::mutex mutex;
   static std::chrono::steady_clock::time_point next_report;
@@ -81,7 +81,7 @@ void Tell(FrameMeter::Flood flood, const std::string& peer) {
                so_far);
 }
 
-/// `connection`: null if it is not known any more.
+/// `connection`: null if no longer known.
 bool Take(FrameMeter& meter, const void* bytes, size_t count, const Guarded* connection) {
   if (meter.flooded()) return false;  // gRPC tries again before it closes the connection
   const FrameMeter::Flood flood = meter.Take({static_cast<const uint8_t*>(bytes), count});
@@ -92,7 +92,7 @@ bool Take(FrameMeter& meter, const void* bytes, size_t count, const Guarded* con
   return false;
 }
 
-/// Whether what was received may go on to gRPC.
+/// Whether the received bytes may be passed to gRPC.
 bool TakeMessage(Guarded& connection, const msghdr& message, size_t count) {
   for (size_t i = 0; i < message.msg_iovlen && count > 0; ++i) {
     const size_t part = std::min(count, message.msg_iov[i].iov_len);
@@ -137,7 +137,7 @@ void CountCallFlood() { ++empty_frame_floods; }
 
 }  // namespace choreo
 
-// These are called instead of the libraries' own by all that is linked with this.
+// These definitions replace the libraries' own in every program linked with this file.
 extern "C" {
 
 __attribute__((visibility("default"))) ssize_t recvmsg(int descriptor, msghdr* message, int flags) {
@@ -161,6 +161,6 @@ __attribute__((visibility("default"))) int SSL_read(SSL* ssl, void* bytes, int s
   const auto connection = choreo::last_read.lock();
   if (choreo::Take(choreo::MeterOf(ssl), bytes, static_cast<size_t>(count), connection.get()))
     return count;
-  return -1;  // SSL_get_error calls it a failure of the transport
+  return -1;  // SSL_get_error reports this as a transport failure
 }
 }

@@ -8,31 +8,31 @@
 
 namespace choreo {
 
-/// Follows the frames that a client sends over HTTP/2, and tells of two floods that gRPC 1.51 lets
+/// Parses the HTTP/2 frames that a client sends, and detects two floods that gRPC 1.51 lets
 /// through:
-/// - the headers of a call, a HEADERS frame and its CONTINUATIONs (RFC 9113, 6.10), grow too long.
-///   gRPC refuses calls with more than 8 KiB of headers, but not before it has them all.
-/// - frames that carry little come too fast: gRPC works on each of them, and no call or window
-/// bounds
-///   them. Data that lacks half of kFullFrame counts as half a frame. A call counts as
-///   kFramesOfCall: who does not confirm the server's settings is bound by no limit of calls, and
-///   each takes 18 KB until a thread has looked at it.
+/// - The headers of a call, a HEADERS frame and its CONTINUATIONs (RFC 9113, 6.10), are too long.
+///   gRPC refuses calls with more than 8 KiB of headers, but only once it has received them all.
+/// - Frames with little content come too fast. gRPC works on each of them, and no limit on calls
+///   and no flow-control window bounds them. A DATA frame with less than half of kFullFrame counts
+///   as half a frame. A call counts as kFramesOfCall: a client that does not acknowledge the
+///   server's settings has no limit on calls, and each call takes 18 KB until a thread has handled
+///   it.
 class FrameMeter {
  public:
   using Clock = std::chrono::steady_clock;
   enum class Flood { kNone, kHeaders, kEmptyFrames };
 
-  /// Takes the next bytes, which came `now`. Take no more after a flood.
+  /// Reads the next bytes, received at `now`. Do not call it again after a flood.
   Flood Take(std::span<const uint8_t> bytes, Clock::time_point now = Clock::now());
   bool flooded() const { return flooded_; }
 
-  static constexpr size_t kMostHeaderBytes = 64 << 10;  ///< with the heads of their frames
-  /// In one second. A server's 50 dances for a core, each with a few windows and pings a second,
-  /// need some hundreds.
+  static constexpr size_t kMostHeaderBytes = 64 << 10;  ///< including frame headers
+  /// The limit per second. 50 dances on one connection, each with a few window updates and pings a
+  /// second, need some hundreds.
   static constexpr int kMostEmptyFrames = 10'000;
   static constexpr int kFramesOfCall = 2;
-  /// Bytes of data from which a frame has content. Less than a key or 2 ms of music has, since who
-  /// sends a song may send all of it at once.
+  /// The least bytes of a DATA frame with content. A key and 2 ms of music have more, because a
+  /// client may send a whole song at once.
   static constexpr size_t kFullFrame = 64;
 
  private:
@@ -41,13 +41,13 @@ class FrameMeter {
   Flood TakeFrame(int type, size_t length);
   Flood Lack(size_t bytes);
 
-  size_t skipped_ = kPreface;  // bytes until the next frame's head
+  size_t skipped_ = kPreface;  // bytes until the next frame's header
   std::array<uint8_t, kFrameHead> head_{};
   size_t head_bytes_ = 0;
   size_t headers_ = 0;
   bool flooded_ = false;
   Clock::time_point second_ends_;
-  size_t lacking_ = 0;  // bytes of content, in this second
+  size_t lacking_ = 0;  // missing bytes of content in this second
 };
 
 }  // namespace choreo

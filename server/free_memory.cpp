@@ -10,7 +10,7 @@
 
 namespace choreo {
 
-// What is free is only counted where memory has grown, as the count takes time, too.
+// Counts free memory only after resident memory has grown, because counting takes time, too.
 void FreeMemory::Look() {
   const int64_t resident = ResidentBytes(getpid());
   least_ = std::min(least_, resident);

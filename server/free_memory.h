@@ -4,17 +4,18 @@
 
 namespace choreo {
 
-/// Gives memory back that has been freed but is still the process's: the C library keeps what lies
-/// between pieces in use, and after a flood of calls that is more than a GiB. For one thread.
+/// Returns freed memory to the system. The C library keeps free memory between blocks in use, which
+/// after a flood of calls is more than a GiB. Not thread-safe.
 class FreeMemory {
  public:
-  /// Call regularly. Others who allocate wait meanwhile, so it acts where much is free alone.
+  /// Call regularly. Returns memory only if at least kMuch is free, because allocations of other
+  /// threads wait meanwhile.
   void Look();
 
   static constexpr int64_t kMuch = int64_t{256} << 20;
 
  private:
-  int64_t least_ = INT64_MAX;  // bytes that were resident since it last gave some back
+  int64_t least_ = INT64_MAX;  // the fewest resident bytes since memory was last returned
 };
 
 }  // namespace choreo

@@ -12,12 +12,12 @@
 namespace choreo {
 namespace {
 
-/// More connections without a call are not looked at: the oldest are forgotten.
+/// The most connections without a call to watch. Beyond it the oldest are dropped.
 constexpr size_t kMostUnproven = 256;
-constexpr size_t kMostNamed = 5;                      // peers in a line
-constexpr std::chrono::seconds kBetweenTellings{10};  // as of gRPC's own lines
+constexpr size_t kMostNamed = 5;                      // peers named in one log line
+constexpr std::chrono::seconds kBetweenTellings{10};  // as for gRPC's own lines
 
-/// A text that OpenSSL gives as the reason, and its place among kHandshakeFaults.
+/// A reason in OpenSSL's words, and its index in kHandshakeFaults.
 constexpr std::pair<std::string_view, size_t> kReasons[] = {
     {"peer did not return a certificate", 0},
     {"certificate verify failed", 1},
@@ -62,7 +62,7 @@ void HandshakeWatch::Began(const std::string& peer) {
   std::erase_if(unproven_, [&](const Connection& one) { return one.peer == peer; });
 }
 
-// A descriptor that was closed has no peer, or another one if its number is in use again.
+// A closed descriptor has no peer, or another peer if its number has been reused.
 std::vector<std::string> HandshakeWatch::TakeEnded() {
   std::vector<std::string> ended;
   std::erase_if(unproven_, [&](const Connection& one) {

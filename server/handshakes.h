@@ -11,7 +11,7 @@
 
 namespace choreo {
 
-/// Why TLS handshakes fail; names in /metrics. The last stands for all other reasons.
+/// Reasons why TLS handshakes fail, as named in /metrics. The last covers all other reasons.
 inline constexpr std::array kHandshakeFaults = {
     "no_client_certificate",
     "bad_client_certificate",
@@ -23,21 +23,21 @@ inline constexpr std::array kHandshakeFaults = {
 };
 using HandshakeFaults = std::array<uint64_t, kHandshakeFaults.size()>;
 
-/// Counts the failed handshake that a line of gRPC's log reports, if it reports one: gRPC 1.51
-/// reports them nowhere else. Thread-safe.
+/// Counts a failed handshake if this line of gRPC's log reports one. gRPC 1.51 reports them nowhere
+/// else. Thread-safe.
 void CountHandshakeFault(std::string_view line);
-/// Failed handshakes of this process. Thread-safe.
+/// The number of failed handshakes in this process, by reason. Thread-safe.
 HandshakeFaults CountedHandshakeFaults();
 
 /// Logs the likely peers of failed handshakes, which gRPC does not name: connections that ended at
-/// that time without a call. Thread-safe.
+/// about that time without a call. Thread-safe.
 class HandshakeWatch {
  public:
-  /// A new connection.
+  /// Records a new connection.
   void Accepted(int connection);
-  /// A call of this peer, in the form of PeerOf.
+  /// Records a call of this peer, in the form of PeerOf.
   void Began(const std::string& peer);
-  /// Logs what has failed since the last time. Call regularly.
+  /// Logs the failures since the last call. Call regularly.
   void Look();
 
  private:
@@ -48,9 +48,9 @@ class HandshakeWatch {
   std::vector<std::string> TakeEnded();
 
   std::mutex mutex_;                 // guards the members below
-  std::deque<Connection> unproven_;  // those without a call, oldest first
+  std::deque<Connection> unproven_;  // connections without a call, oldest first
   HandshakeFaults told_ = CountedHandshakeFaults();
-  std::vector<std::string> ended_;  // not yet told
+  std::vector<std::string> ended_;  // not yet logged
   std::chrono::steady_clock::time_point next_report_;
 };
 

@@ -7,11 +7,11 @@
 
 namespace choreo {
 
-/// Addresses that have flooded a server and get no new connection for a while. Thread-safe.
+/// Addresses that flooded the server and may not connect for a while. Thread-safe.
 class HeldOff {
  public:
   using Clock = std::chrono::steady_clock;
-  /// Much longer than a flood takes before it is ended.
+  /// How long an address is held off: much longer than a flood lasts before it is ended.
   static constexpr std::chrono::seconds kTime{10};
 
   void Add(const std::string& address, Clock::time_point now = Clock::now()) {

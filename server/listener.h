@@ -9,16 +9,17 @@
 
 namespace choreo {
 
-/// Accepts connections and passes them on. Replaces gRPC's listener, which never accepts again once
-/// the process has run out of descriptors. This one refuses connections (closes them at once, so
-/// that clients go elsewhere) while some descriptors are still left for everything else, and
-/// resumes when there are more. Thread-safe.
+/// Accepts connections and passes them on. Replaces gRPC's listener, which stops accepting for good
+/// once the process has run out of descriptors. This one keeps some descriptors in reserve. When
+/// only those are left, it closes new connections at once, so that clients go elsewhere, until more
+/// are free. Thread-safe.
 class Listener {
  public:
-  /// Called on the listener's thread; the callee then owns the connection. Must not block.
+  /// Called on the listener's thread. The callee takes ownership of the connection and must not
+  /// block.
   using Accept = std::function<void(int listening, int connection)>;
 
-  /// Listens on HOST:PORT; port 0 takes a free one. Connections wait until Start. Throws
+  /// Listens on HOST:PORT; port 0 picks a free port. Connections wait until Start. Throws
   /// Error(kUnavailable, field).
   explicit Listener(const std::string& address, const std::string& field = "--listen");
   ~Listener();
@@ -27,7 +28,7 @@ class Listener {
 
   int port() const { return port_; }
   void Start(Accept accept);
-  /// Accepts no more connections, and closes waiting ones. Idempotent.
+  /// Stops accepting and closes waiting connections. Idempotent.
   void Stop();
 
  private:
@@ -45,8 +46,8 @@ class Listener {
   std::chrono::steady_clock::time_point next_report_;
 };
 
-/// Whether HOST:PORT is only reachable from this machine; also true for a host without an address,
-/// where nobody can listen.
+/// Whether HOST:PORT is reachable from this machine only. Also true for a host without an address,
+/// on which nobody can listen.
 bool IsLocal(const std::string& address);
 
 /// Raises the process's descriptor limit as far as allowed.

@@ -19,7 +19,7 @@
 namespace choreo {
 namespace {
 
-/// The logger for lines whose text consists of JSON members already.
+/// The logger for lines whose text already consists of JSON members.
 constexpr std::string_view kMembers = "members";
 
 bool log_is_json = false;  // written before threads start
@@ -28,7 +28,7 @@ std::string Quoted(std::string_view text) {
   return nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
-/// The pattern's flag %*: the rest of the JSON object.
+/// Implements the pattern's flag %*: the rest of the JSON object.
 class Members final : public spdlog::custom_flag_formatter {
  public:
   void format(const spdlog::details::log_msg& message, const std::tm& /*time*/,
@@ -44,8 +44,8 @@ class Members final : public spdlog::custom_flag_formatter {
   }
 };
 
-/// Limits log lines per period and counts the rest, because anybody can make the server log a line
-/// per connection or call. Thread-safe.
+/// Limits the log lines per period and counts the rest, because anybody can cause a line per
+/// connection or call. Thread-safe.
 class LineLimit {
  public:
   LineLimit(int lines, std::chrono::seconds period) : most_(lines), period_(period) {}
@@ -62,7 +62,7 @@ class LineLimit {
     return true;
   }
 
-  /// The lines suppressed in a period that is over, and not told yet.
+  /// The lines suppressed in finished periods and not yet reported.
   int TakeLeftOut() {
     const std::lock_guard lock(mutex_);
     BeginPeriod();
@@ -70,7 +70,7 @@ class LineLimit {
   }
 
  private:
-  void BeginPeriod() {  // if the former one is over. Needs the lock
+  void BeginPeriod() {  // if the previous one is over. Requires the lock
     const auto now = std::chrono::steady_clock::now();
     if (now - begin_ < period_) return;
     begin_ = now;
@@ -89,14 +89,14 @@ LineLimit& RefusedCalls() {
   return limit;
 }
 
-/// Forwards gRPC's own log, which contains only errors unless GRPC_VERBOSITY says otherwise.
+/// Forwards gRPC's own log, which contains only errors unless GRPC_VERBOSITY is set.
 void TakeGrpcLine(gpr_log_func_args* line) {
   CountHandshakeFault(line->message);
   static LineLimit limit(10, std::chrono::seconds(10));
   const int left_out = limit.TakeLeftOut();
   if (left_out > 0) spdlog::warn("gRPC: {} lines were left out", left_out);
   if (!limit.Take()) return;
-  // A server that is told to stop ends handshakes so.
+  // A server that shuts down ends handshakes with this error.
   const bool is_orderly =
       std::string_view(line->message).find("Listener stopped serving") != std::string_view::npos;
   const auto level = is_orderly                                 ? spdlog::level::info

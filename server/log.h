@@ -12,10 +12,12 @@
 
 namespace choreo {
 
-/// Logs to stderr, from `level` on (spdlog's names), as text or as one JSON object per line.
+/// Starts logging to stderr, from `level` up (spdlog's names), as text or as one JSON object per
+/// line.
 void StartLog(const std::string& level, bool json);
 
-/// Logs what gRPC would log itself, and counts the failed handshakes that it reports. Idempotent.
+/// Redirects gRPC's log into this one, and counts the failed handshakes that it reports.
+/// Idempotent.
 void ForwardGrpcLog();
 
 /// A call that has ended.
@@ -24,19 +26,19 @@ struct CallRecord {
   const Caller& caller;
   const grpc::Status& status;
   double seconds = 0;
-  int64_t frames = 0;                   ///< at the client's rate
-  double first_frame_s = 0;             ///< after it began; 0 without frames
-  std::string_view model = {};          ///< requested; empty: none was found
-  std::optional<uint64_t> seed = {};    ///< in use
-  std::optional<Refusal> refusal = {};  ///< the reason for its end
+  int64_t frames = 0;           ///< at the client's rate
+  double first_frame_s = 0;     ///< time from the call's start to its first frame; 0 without frames
+  std::string_view model = {};  ///< the requested model; empty: not found
+  std::optional<uint64_t> seed = {};    ///< the seed used
+  std::optional<Refusal> refusal = {};  ///< why the call was refused
 };
 
-/// A line to print outside the log, as an object like the log's with --log-format json.
+/// Formats a line to print outside the log, as the JSON object of --log-format json.
 std::string JsonLine(const std::string& level, const std::string& message);
 
-/// Logs a call's single line at level info; of refused ones at most ten a second.
+/// Logs one line for a call, at level info. Logs at most ten refused calls a second.
 void LogCall(const CallRecord& call);
-/// Logs how many refused calls had no line, if that has not been told. Call it regularly.
+/// Logs how many refused calls LogCall has left out since the last report. Call regularly.
 void LogLeftOutCalls();
 
 }  // namespace choreo

@@ -38,7 +38,7 @@ std::filesystem::path MemoryFile::path() const {
 
 void MemoryFile::Replace(const std::string& content) {
   const int made = Make(content);
-  dup3(made, descriptor_, O_CLOEXEC);  // the path leads to the new file from now on
+  dup3(made, descriptor_, O_CLOEXEC);  // from now on the path names the new file
   close(made);
 }
 

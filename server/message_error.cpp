@@ -9,7 +9,7 @@
 namespace choreo {
 namespace {
 
-/// What follows `start` in `text`, if it begins so.
+/// The rest of `text` after `start`; none unless it begins with `start`.
 bool Skip(std::string_view start, std::string_view* text) {
   if (!text->starts_with(start)) return false;
   text->remove_prefix(start.size());

@@ -6,12 +6,13 @@
 
 namespace choreo {
 
-/// An error about a message that may come more than once. People read its number among those
-/// accepted of its kind, and no message around a pose: "keyframes[3].rotations[16]". Programs get
-/// the path in the message: "keyframe.pose.rotations[16]".
+/// An error about one of several messages of a kind. what() is for people: it counts the accepted
+/// messages of that kind and omits the message around a pose, as in "keyframes[3].rotations[16]".
+/// path() is for programs: it is the path inside the message, "keyframe.pose.rotations[16]".
 class MessageError : public Error {
  public:
-  /// `error`: its field is the path in the message. `key_id`: of the key that it is about, if any.
+  /// `error`: the original error, whose field is the path inside the message. `number`: the
+  /// message's index. `key_id`: the id of the key concerned, if any.
   MessageError(const Error& error, int number, std::string key_id = {});
 
   const std::string& path() const { return path_; }
@@ -21,8 +22,8 @@ class MessageError : public Error {
   std::string path_, key_id_;
 };
 
-/// The path of an error's field in the sent message. There coordinates have names, and the poses of
-/// a continuation are arrays of numbers: vectors are counted, not numbers.
+/// The path of an error's field in the message as sent. The message names coordinates, and stores a
+/// continuation's poses as arrays of numbers, whose indices count vectors, not numbers.
 std::string PathInMessage(const Error& error);
 
 }  // namespace choreo

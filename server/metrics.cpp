@@ -19,8 +19,8 @@
 namespace choreo {
 namespace {
 
-/// Each connection has a thread, so that idle ones delay nobody. (The library's own HTTP server
-/// cannot run beside LibTorch, which needs larger thread stacks than that server's.)
+/// The most connections. Each has a thread, so that idle ones delay nobody. (The library's own HTTP
+/// server cannot run beside LibTorch, which needs larger thread stacks.)
 constexpr size_t kMostConnections = 16;
 constexpr int kPatienceMs = 5'000;
 constexpr size_t kMaxRequestBytes = 8 << 10;
@@ -132,7 +132,7 @@ struct MetricsEndpoint::Impl {
   std::mutex mutex;
   std::condition_variable closed;
   std::vector<int> open;  // oldest first; lock: mutex
-  Listener listener;      // last: its thread uses the members above
+  Listener listener;      // last, because its thread uses the members above
 };
 
 MetricsEndpoint::MetricsEndpoint(const std::string& address, const Serving& serving)

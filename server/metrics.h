@@ -7,12 +7,12 @@
 
 namespace choreo {
 
-/// Serves figures for Prometheus at http://ADDRESS/metrics from construction to destruction,
-/// gathered on each request. Thread-safe.
+/// Serves Prometheus metrics at http://ADDRESS/metrics, from construction to destruction. Gathers
+/// them on each request. Thread-safe.
 class MetricsEndpoint {
  public:
-  /// HOST:PORT; port 0 takes a free one. `serving` must outlive it. Throws Error(kUnavailable,
-  /// "--metrics").
+  /// `address`: HOST:PORT; port 0 picks a free port. `serving` must outlive this object. Throws
+  /// Error(kUnavailable, "--metrics").
   MetricsEndpoint(const std::string& address, const Serving& serving);
   ~MetricsEndpoint();
 

@@ -65,7 +65,7 @@ ModelFolder::Stamp ModelFolder::StampOf(const std::filesystem::path& file) {
 Server::Samplers ModelFolder::LoadFile(const std::filesystem::path& file, Files* files) const {
   RequireRegularFile(kFlag, file);
   const Stamp stamp =
-      StampOf(file);  // taken first, so that the next look sees changes during loading
+      StampOf(file);  // taken first, so that the next Reload sees changes during loading
   Server::Samplers engines = load_(file);
   const ModelInfo& model = engines.front()->model();
   for (const auto& [other, served] : *files) {
@@ -99,7 +99,7 @@ void ModelFolder::Reload(Server& server, const std::function<bool()>& stopped) {
     KeepServing(faults, &files);
     std::vector<std::string> names;
     for (const auto& file : listed) {
-      // Uses the file that has taken over its model, if any.
+      // A faulty file stands for its previous model, which another file may have taken over.
       const Files& from = files.contains(file) ? files : served_;
       const auto at = from.find(file);
       if (at != from.end() && std::ranges::find(names, at->second.model) == names.end()) {

@@ -15,25 +15,24 @@
 
 namespace choreo {
 
-/// A folder of checkpoints, one model each: its .safetensors files, except those whose names begin
-/// with a dot. default.safetensors comes first, the others by name. Not thread-safe.
+/// A folder of checkpoints: its .safetensors files, one model each, except those whose names begin
+/// with a dot. default.safetensors comes first; the others follow by name. Not thread-safe.
 class ModelFolder {
  public:
-  /// Loads a checkpoint and makes warm engines.
+  /// Loads a checkpoint and returns warmed-up engines.
   using Loader = std::function<Server::Samplers(const std::filesystem::path&)>;
 
   ModelFolder(std::filesystem::path folder, Loader load)
       : folder_(std::move(folder)), load_(std::move(load)) {}
 
-  /// Loads all models at start. Throws what the loader throws, and Error(kInvalidArgument,
-  /// "--models") for a folder that is empty or unreadable, and for two files with models of one
-  /// name.
+  /// Loads all models at startup. Throws what the loader throws. Throws Error(kInvalidArgument,
+  /// "--models") for an empty or unreadable folder, and for two models of the same name.
   std::vector<Server::Samplers> Load();
 
   /// Rereads the folder: loads new and changed files, and updates the server. Logs an unusable file
-  /// as an error and retries it next time; until then its previous model stays, unless another file
-  /// has one of that name. Everything stays if the folder is empty or unreadable. Once `stopped`,
-  /// loads nothing more and does not update the server.
+  /// as an error and retries it next time. Until then its previous model is still served, unless
+  /// another file has a model of that name. Changes nothing if the folder is empty or unreadable.
+  /// Once `stopped` returns true, loads nothing more and does not update the server.
   void Reload(Server& server, const std::function<bool()>& stopped);
 
  private:
@@ -56,13 +55,14 @@ class ModelFolder {
   std::vector<std::filesystem::path> List() const;
   static Stamp StampOf(const std::filesystem::path& file);
   static bool Has(const Files& files, const std::string& model);
-  /// Loads it, and records it in `files`. Throws if a model of that name exists.
+  /// Loads a file and records it in `files`. Throws if `files` has a model of that name.
   Server::Samplers LoadFile(const std::filesystem::path& file, Files* files) const;
-  /// Records the file in `files`, or its problem in `faults`; returns engines unless they are
+  /// Records a file in `files`, or its problem in `faults`. Returns its engines unless they are
   /// already served.
   std::optional<Server::Samplers> Inspect(const std::filesystem::path& file, Files* files,
                                           Faults* faults) const;
-  /// Keeps serving the previous models of faulty files, after all others, which have precedence.
+  /// Adds the previous models of faulty files to `files`. Call after all other files are recorded,
+  /// because those have precedence.
   void KeepServing(const Faults& faults, Files* files) const;
 
   const std::filesystem::path folder_;

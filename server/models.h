@@ -11,35 +11,36 @@
 
 namespace choreo {
 
-/// A server's models: those that it serves, the first one as the default, and withdrawn ones that
-/// calls still dance. Thread-safe.
+/// A server's models: the served ones, of which the first is the default, and withdrawn ones that
+/// calls still use. Thread-safe.
 class Models {
  public:
-  /// A model in use, which exists as long as anybody holds one. Only Models ends queues, never the
-  /// last holder: that may be one of their own threads.
+  /// A model in use, kept alive by its holders. Only Models ends queues, never their last holder,
+  /// which may run on one of the queue's own threads.
   using Use = std::shared_ptr<SampleQueue>;
 
-  /// Present and total figures of the models with one name.
+  /// Current and total figures of all models with one name.
   struct Figures {
     SampleQueue::Stats stats;
     SampleQueue::Histograms histograms;
   };
 
-  /// Throws Error(kInvalidArgument) for no models, and for two of one name.
+  /// Throws Error(kInvalidArgument) without models, and for two models of the same name.
   explicit Models(std::vector<std::unique_ptr<SampleQueue>> models);
 
-  /// Serves these from now on, in this order: those of `fresh`, and present ones whose names are
-  /// not among them. Users of other models keep them. Throws Error(kInvalidArgument), and changes
-  /// nothing, for no names, a duplicate, and one without a model.
+  /// Serves the models with these names from now on, in this order. Each is one of `fresh` or,
+  /// failing that, one already served. Users of other models keep them. Throws
+  /// Error(kInvalidArgument), and changes nothing, without names, for a duplicate name, and for a
+  /// name without a model.
   void Set(const std::vector<std::string>& names, std::vector<std::unique_ptr<SampleQueue>> fresh);
-  /// Ends queues that are neither served nor used. Must not run on their threads.
+  /// Ends queues that are neither served nor used. Must not be called on a queue's thread.
   void FreeUnused();
 
-  /// The first model for an empty name, and for "controllers" if none has that name. Throws
-  /// Error(kNotFound) that lists the models.
+  /// Finds a model by name. An empty name, and "controllers" if no model has that name, means the
+  /// first model. Throws Error(kNotFound) that lists the models.
   Use Find(const std::string& name, const std::string& field) const;
   std::vector<Use> served() const;
-  /// The figures by name. Withdrawn models stay until nobody dances them any more.
+  /// The figures by model name. Includes withdrawn models while calls use them.
   std::map<std::string, Figures> figures() const;
   /// Transitions running or waiting.
   int transitions() const;

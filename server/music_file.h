@@ -15,15 +15,15 @@ namespace choreo {
 
 inline constexpr int64_t kMaxAudioFileBytes = 128 << 20;
 
-/// Memory for incomplete music files, shared by a server's calls. Thread-safe.
+/// The memory limit on incomplete music files, shared by a server's calls. Thread-safe.
 class MusicBudget {
  public:
   explicit MusicBudget(int64_t bytes) : bytes_(bytes) {}
 
-  /// Throws Refused if less is left.
+  /// Reserves memory. Throws Refused if less is left.
   void Take(int64_t bytes);
   void GiveBack(int64_t bytes);
-  double utilisation() const;  ///< the share that is taken
+  double utilisation() const;  ///< the reserved share
 
  private:
   const int64_t bytes_;
@@ -31,7 +31,7 @@ class MusicBudget {
   int64_t taken_ = 0;
 };
 
-/// The part of a music file that has come, in memory taken from a budget. Not thread-safe.
+/// The received part of a music file, in memory reserved from a budget. Not thread-safe.
 class MusicFile {
  public:
   explicit MusicFile(MusicBudget& budget) : budget_(budget) {}
@@ -39,10 +39,10 @@ class MusicFile {
   MusicFile(const MusicFile&) = delete;
   MusicFile& operator=(const MusicFile&) = delete;
 
-  /// Throws Error(kInvalidArgument, `field`) beyond kMaxAudioFileBytes, and what the budget throws;
-  /// the file is then unchanged.
+  /// Appends bytes. Throws Error(kInvalidArgument, `field`) beyond kMaxAudioFileBytes, and what
+  /// MusicBudget::Take throws. The file is then unchanged.
   void Append(std::string_view bytes, const std::string& field);
-  /// Returns the memory.
+  /// Empties the file and returns its memory to the budget.
   void Clear();
 
   bool empty() const { return bytes_.empty(); }
@@ -52,18 +52,18 @@ class MusicFile {
  private:
   MusicBudget& budget_;
   std::string bytes_;
-  int64_t reserved_ = 0;  // from the budget; at least the size of bytes_
+  int64_t reserved_ = 0;  // bytes reserved from the budget; at least bytes_.size()
 };
 
-/// The music of a whole file.
+/// The decoded music of a file.
 struct DecodedMusic {
   std::vector<float> mono;         ///< at kModelSampleRate
-  std::vector<std::string> notes;  ///< DecodeMono's, about what is damaged
+  std::vector<std::string> notes;  ///< DecodeMono's notes about damage
 
-  /// Throws what DecodeMono throws, and what `between` throws.
+  /// Decodes a file. Throws what DecodeMono and `between` throw.
   static DecodedMusic Of(std::span<const std::byte> file, const std::function<void()>& between);
   double seconds() const;
-  /// `beats`: those that the client knows; none: finds them.
+  /// Analyses the music. `beats`: those that the client gave; if empty, finds them.
   MusicAnalysis Analyse(const std::vector<double>& beats) const;
 };
 

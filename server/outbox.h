@@ -19,37 +19,38 @@ namespace choreo {
 
 /// Connects the producers of a call's answers (workers) with the gRPC reactor that writes them.
 ///
-/// gRPC 1.51 has no holds on the server: a reactor dies once it has finished and its operations are
-/// over. So only this object asks it to write or finish, always under the lock, and never again
-/// after Finish; workers keep this object alive, not the reactor.
+/// In gRPC 1.51, server reactors have no holds: a reactor is destroyed once it has finished and its
+/// operations are over. So only this object starts writes and finishes, always under the lock, and
+/// starts nothing after Finish. Workers keep this object alive, not the reactor.
 ///
-/// Back-pressure bounds the queue: beyond `max_bytes` the dance pauses, below half of it the dance
-/// resumes. Waiting frames are joined into larger messages. Beyond kMaxWaiting times `max_bytes`
-/// the client's messages are not read until it has taken answers. Thread-safe.
+/// Back-pressure bounds the queue. The dance pauses when the queue exceeds `max_bytes`, and resumes
+/// when it falls to half of that. Waiting frames are joined into larger messages. While the queue
+/// exceeds kMaxWaiting times `max_bytes`, the client's messages are not read. Thread-safe.
 template <class Response>
 class Outbox {
  public:
-  /// Frames alone do not reach this, so a client may send everything before it reads anything.
+  /// Frames alone do not reach this limit, so a client may send all its messages before it reads
+  /// any answer.
   static constexpr size_t kMaxWaiting = 4;
 
-  /// The reactor's operations. Called with the lock held; must not call back.
+  /// The reactor's operations. Called with the lock held; must not call the outbox.
   class Wire {
    public:
     virtual ~Wire() = default;
-    virtual void Write(const Response* message) = 0;  ///< ends in OnWriteDone
+    virtual void Write(const Response* message) = 0;  ///< OnWriteDone follows
     virtual void Finish(const grpc::Status& status) = 0;
-    virtual void Read() {}  ///< the client's next message; only after RequestRead
-    /// Ends the call with `status`, whatever the client does; OnWriteDone follows soon.
+    virtual void Read() {}  ///< reads the client's next message; only after RequestRead
+    /// Ends the call with `status`, regardless of the client; OnWriteDone follows soon.
     virtual void Reset(const grpc::Status& /*status*/) {}
   };
 
   enum class State {
-    kOpen,      ///< takes answers
-    kClosing,   ///< takes none; queued ones still go out
-    kFinished,  ///< the wire was asked to finish and may be gone
+    kOpen,      ///< accepts answers
+    kClosing,   ///< accepts no answers, but sends queued ones
+    kFinished,  ///< Wire::Finish was called, so the wire may be destroyed
   };
 
-  /// While it exists, the wire is not asked to finish: needed to use the reactor without the lock.
+  /// Delays Wire::Finish while it exists. Needed to use the reactor without the lock.
   class Hold {
    public:
     explicit Hold(Outbox& outbox) : outbox_(outbox) {
@@ -70,8 +71,8 @@ class Outbox {
 
   using Clock = std::chrono::steady_clock;
 
-  /// `set_paused` and `on_sent` are called without the lock, one call at a time: `on_sent` with
-  /// each answer that has gone out, and when the first part of it was queued.
+  /// `set_paused` and `on_sent` are called without the lock, one call at a time. `on_sent` gets
+  /// each sent answer and the time at which its first part was queued.
   Outbox(Wire* wire, size_t max_bytes, std::function<void(bool)> set_paused,
          std::function<void(const Response&, Clock::time_point)> on_sent = {})
       : wire_(wire),
@@ -79,7 +80,7 @@ class Outbox {
         set_paused_(std::move(set_paused)),
         on_sent_(std::move(on_sent)) {}
 
-  /// Queues an answer. Ignored unless open.
+  /// Queues an answer. Does nothing unless open.
   void Send(Response message) {
     {
       const std::lock_guard lock(mutex_);
@@ -92,7 +93,8 @@ class Outbox {
     UpdatePressure();
   }
 
-  /// Ends the call with `status` after all queued answers. The first Close or Abort counts.
+  /// Ends the call with `status` after all queued answers. Only the first Close or Abort sets the
+  /// status.
   void Close(const grpc::Status& status) {
     const std::lock_guard lock(mutex_);
     if (state_ != State::kOpen) return;
@@ -101,7 +103,7 @@ class Outbox {
     Advance();
   }
 
-  /// Like Close, but drops queued answers; also works after Close.
+  /// Ends the call with `status` and drops queued answers. After Close, keeps Close's status.
   void Abort(const grpc::Status& status) {
     const std::lock_guard lock(mutex_);
     if (state_ == State::kFinished) return;
@@ -114,14 +116,14 @@ class Outbox {
     Advance();
   }
 
-  /// Ends an aborted call even if the client does not take the answer on its way.
+  /// Ends an aborted call even if the client does not take the answer being written.
   void Reset() {
     const std::lock_guard lock(mutex_);
     if (writing_ && state_ != State::kFinished) wire_->Reset(status_);
   }
 
-  /// The reactor has handled the client's last message and may read the next one, as soon as there
-  /// is room for its answer, unless the call ends before.
+  /// Call when the reactor has handled the client's last message. Starts reading the next one as
+  /// soon as there is room for its answer, unless the call ends first.
   void RequestRead() {
     const std::lock_guard lock(mutex_);
     read_at_ = Clock::now();
@@ -129,7 +131,7 @@ class Outbox {
     Advance();
   }
 
-  /// The reactor's OnWriteDone.
+  /// Call from the reactor's OnWriteDone.
   void OnWriteDone(bool ok) {
     Item done;
     {
@@ -152,8 +154,8 @@ class Outbox {
     }
   }
 
-  /// Whether an answer waits for the client, and since when. If none does: when the last message
-  /// came or went.
+  /// Whether an answer is waiting for the client to take it, and since when; otherwise the time of
+  /// the last message in either direction.
   CallProgress progress() const {
     const std::lock_guard lock(mutex_);
     return {writing_, writing_ ? written_at_ : std::max(written_at_, read_at_)};
@@ -164,7 +166,7 @@ class Outbox {
     return state_ == State::kOpen;
   }
 
-  /// The status that the call ended, or will end, with.
+  /// The status with which the call has ended or will end.
   grpc::Status status() const {
     const std::lock_guard lock(mutex_);
     return status_;
@@ -179,7 +181,7 @@ class Outbox {
     Clock::time_point queued = {};
   };
 
-  // Appends frames to the last waiting message if they follow its frames.
+  // Appends frames to the last waiting message if they directly follow its frames.
   bool Join(const Response& message, size_t bytes) {
     if (!message.has_frames() || queue_.size() < (writing_ ? 2U : 1U)) return false;
     Item& last = queue_.back();
@@ -199,7 +201,7 @@ class Outbox {
     return true;
   }
 
-  // Starts the next operations that are due. Requires the lock.
+  // Starts the operations that are due. Requires the lock.
   void Advance() {
     if (read_wanted_ && state_ == State::kOpen && bytes_ <= kMaxWaiting * max_bytes_) {
       read_wanted_ = false;
@@ -216,7 +218,8 @@ class Outbox {
     }
   }
 
-  // set_paused may make a dance deliver and re-enter here; the outermost call handles it.
+  // set_paused may make a dance deliver frames and re-enter here. The outermost call then
+  // continues.
   void UpdatePressure() {
     pacer_.Run(
         mutex_, std::numeric_limits<int>::max(),
@@ -245,7 +248,7 @@ class Outbox {
   bool read_wanted_ = false;
   int holds_ = 0;
   bool paused_ = false;
-  Pacer pacer_;  // of the calls to set_paused_
+  Pacer pacer_;  // serialises calls to set_paused_
   grpc::Status status_;
 };
 

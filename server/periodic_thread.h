@@ -11,8 +11,8 @@
 
 namespace choreo {
 
-/// A thread that calls `action` every `interval`, from construction to destruction. Logs exceptions
-/// (memory may be out for a moment) and continues.
+/// A thread that calls `action` every `interval`, from construction to destruction. Logs
+/// exceptions, such as a momentary lack of memory, and continues.
 class PeriodicThread {
  public:
   PeriodicThread(std::chrono::milliseconds interval, std::function<void()> action)
@@ -30,7 +30,7 @@ class PeriodicThread {
  private:
   std::mutex mutex_;
   std::condition_variable_any wake_;
-  std::jthread thread_;  // last: it uses the members above
+  std::jthread thread_;  // last, because it uses the members above
 };
 
 }  // namespace choreo

@@ -7,18 +7,18 @@
 
 namespace choreo {
 
-/// A player of a dance, as a server imagines its client: it plays the frames from the first one on,
-/// and stops while it has none.
+/// A model of the client's playback: it plays the frames in order from the first, and stalls while
+/// it has none. Not thread-safe.
 class Player {
  public:
   using Clock = std::chrono::steady_clock;
 
-  /// `fps`: of the frames, above 0.
+  /// `fps`: the frame rate, above 0.
   explicit Player(double fps) : fps_(fps) {}
 
-  /// Takes the frames from `first_frame` on, which were made and went out at these times. Returns
-  /// how many seconds after the player needed them they went out. The time until they were made
-  /// does not count: SampleQueue counts it.
+  /// Records that the frames from `first_frame` on were generated at `made` and sent at `sent`.
+  /// Returns by how many seconds sending made them late for playback. Excludes the time until
+  /// `made`, which SampleQueue measures.
   double Take(int64_t first_frame, Clock::time_point made, Clock::time_point sent) {
     const Seconds played(static_cast<double>(first_frame) / fps_);
     const Seconds begin = Seconds(made.time_since_epoch()) - played;
@@ -33,7 +33,7 @@ class Player {
   using Seconds = std::chrono::duration<double>;
 
   const double fps_;
-  std::optional<Seconds> begun_;  // on Clock, when it played frame 0
+  std::optional<Seconds> begun_;  // the time on Clock at which frame 0 was played
 };
 
 }  // namespace choreo

@@ -34,7 +34,7 @@ DanceManner MannerOf(const v1::DanceConfig& config) {
   return manner;
 }
 
-// Reads the part of the configuration that both RPCs have.
+// Reads the part of the configuration that both RPCs share.
 void FillCommon(const v1::DanceConfig& config, const ModelInfo& model, uint64_t fresh_seed,
                 DanceStart* out) {
   wire::NumbersPerJoint(config.encoding(), "config.encoding");
@@ -100,7 +100,7 @@ ValidDance ToDanceConfig(const v1::DanceConfig& message, const ModelInfo& model,
     config.audio = SamplesOf(message.audio_format());
   }
   ValidDance valid(std::move(config), model);
-  // A stream lives long, and needs only the last poses of a long history.
+  // A stream is long-lived, and needs only the last poses of a long history.
   valid.Change([&](DanceConfig& checked) {
     std::vector<Pose>& poses = checked.history;
     const auto kept = std::min(std::ssize(poses), std::ptrdiff_t{model.history_frames});

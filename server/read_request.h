@@ -8,20 +8,21 @@
 #include "model/dance/transition_group.h"
 #include "model/plan/transition_spec.h"
 
-/// Requests of the API -> the dance's own types, checked. Each function throws Error with the path
-/// of the field, which begins with `field` where there is one. Pure functions, thread-safe.
+/// Checks requests of the API and converts them to the dance's own types. Each function throws
+/// Error with the field's path, which begins with `field` if that is a parameter. Pure functions,
+/// thread-safe.
 namespace choreo {
 
-/// Converts StreamDance's configuration. `fresh_seed` is used where the message has none.
+/// Converts StreamDance's configuration. Uses `fresh_seed` if the message has no seed.
 ValidDance ToDanceConfig(const v1::DanceConfig& config, const ModelInfo& model,
                          uint64_t fresh_seed);
 
-/// Converts a GenerateTransition, without the samples of music files, which are decoded later
-/// (server/music_file.h).
+/// Converts GenerateTransition's request, except for music files, which are decoded later
+/// (server/music_file.h). Uses `fresh_seed` if the message has no seed.
 ValidGroup ToGroupRequest(const v1::GenerateTransitionRequest& request, const ModelInfo& model,
                           uint64_t fresh_seed);
 
-/// Throws if no control is given. ValidateControls checks the values.
+/// Converts controls. Throws if there are none. ValidateControls checks the values.
 ControlRequest ToControls(const v1::Controls& controls, const std::string& field);
 
 }  // namespace choreo

@@ -8,12 +8,12 @@
 
 namespace choreo {
 
-/// Why a valid call is refused: the missing resource.
+/// Why a valid call is refused: the exhausted resource, named by its setting.
 enum class Refusal {
   kStreams,        ///< --max-streams
   kStreamsOfPeer,  ///< --max-streams-of-peer
   kLoad,           ///< --max-load
-  kLoadOfPeer,     ///< one caller's share of it
+  kLoadOfPeer,     ///< one caller's share of --max-load
   kWaiting,        ///< --max-waiting
   kFileMusic,      ///< --max-file-music-mib
   kUnreadInfos,    ///< answers that wait for the caller to read them
@@ -27,11 +27,11 @@ inline constexpr std::array kRefusals = {
     "max_file_music", "unread_infos",        "token",    "draining",
 };
 
-/// Why a new connection is closed before gRPC has it: what its address did.
+/// Why a new connection is closed before gRPC gets it: what its address did.
 enum class ConnectionRefusal {
   kFlood,   ///< sent a flood, less than ten seconds ago
   kResets,  ///< reset more calls than can be ended
-  kRate,    ///< connects too fast
+  kRate,    ///< connected too often
 };
 
 /// Names in /metrics, in the order of the enum.
@@ -50,10 +50,10 @@ class Refused : public Error {
   Refusal why_;
 };
 
-/// None if the call was not refused but failed.
+/// The reason for a refusal; none if the call failed for another reason.
 inline std::optional<Refusal> RefusalIn(const Error& error) {
   if (const auto* refused = dynamic_cast<const Refused*>(&error)) return refused->why();
-  // Engines do not know calls: they have no room for more candidates.
+  // Engines do not throw Refused. They report that they have no room for more candidates.
   if (error.code() == ErrorCode::kResourceExhausted) return Refusal::kWaiting;
   return std::nullopt;
 }

@@ -16,7 +16,7 @@ class Reloads {
 
   struct State {
     bool good = true;
-    double succeeded_at = 0;  ///< the latest time it went well, the start included; since 1970
+    double succeeded_at = 0;  ///< the latest success, including startup; seconds since 1970
   };
   using States = std::array<State, kNames.size()>;
 
@@ -35,7 +35,7 @@ class Reloads {
   }
 
   std::atomic<double> certificate_expires = 0;  ///< seconds since 1970; 0: no TLS
-  std::atomic<double> client_ca_expires = 0;    ///< the same; 0: no --tls-client-ca
+  std::atomic<double> client_ca_expires = 0;    ///< seconds since 1970; 0: no --tls-client-ca
 
  private:
   static double Now() {

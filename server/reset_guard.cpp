@@ -37,7 +37,7 @@ void End(const std::string& peer) try {
   spdlog::error("{}: {}", peer, error.what());
 }
 
-/// Lives as long as its call.
+/// Exists as long as its call.
 class Counted final : public Interceptor {
  public:
   Counted(ResetGuard& guard, std::string peer) : guard_(guard), peer_(std::move(peer)) {
@@ -83,7 +83,7 @@ bool ResetGuard::IsFull(int connection) const {
 }
 
 void ResetGuard::Enter(const std::string& peer) {
-  // gRPC gives no peer for calls of its own services; these are not counted.
+  // Calls to gRPC's own services have no peer, and are not counted.
   if (peer.empty()) return;
   if (on_call_) on_call_(peer);
   {

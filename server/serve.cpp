@@ -44,10 +44,10 @@ sigset_t SetOf(std::initializer_list<int> signals) {
   std::_Exit(0);
 }
 
-/// While it lives, signals to stop end choreod at once.
+/// While this object exists, stop signals end choreod at once.
 class LeaveAtOnce {
  public:
-  /// `last`: what is still done then.
+  /// `last`: runs before the exit.
   explicit LeaveAtOnce(std::function<void()> last = {})
       : thread_([last = std::move(last)](const std::stop_token& stop) {
           const sigset_t asked = SetOf({SIGTERM, SIGINT});
@@ -65,8 +65,8 @@ class LeaveAtOnce {
   std::jthread thread_;
 };
 
-/// Rereads the folder of models on request, on its own thread: loading takes seconds, during which
-/// signals must be handled. Requests meanwhile cause one more reread.
+/// Rereads the folder of models on request. Uses its own thread, because loading takes seconds,
+/// during which signals must be handled. Requests during a reread cause one more.
 class Reloader {
  public:
   Reloader(ModelFolder& folder, Server& server)
@@ -100,7 +100,7 @@ class Reloader {
   mutable std::mutex mutex_;
   std::condition_variable_any wake_;
   bool asked_ = false, loads_ = false;  // lock: mutex_
-  std::jthread thread_;                 // last: it uses the above
+  std::jthread thread_;                 // last, because it uses the members above
 };
 
 std::vector<Server::Samplers> LoadAll(const ServerConfig& config, ModelFolder& folder,
@@ -155,7 +155,7 @@ void HoldSignals() {
 
 void Serve(const ServerConfig& config, const ModelFolder::Loader& load) {
   ModelFolder folder(config.models, load);
-  if (!config.check) RequireAddresses(config);  // the server that runs has them
+  if (!config.check) RequireAddresses(config);  // a running server has them in use
   RequireSecrets(config);
   const bool has_folder = !config.models.empty();
   std::vector<Server::Samplers> models = LoadAll(config, folder, load);

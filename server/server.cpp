@@ -45,27 +45,28 @@ using std::chrono::milliseconds;
 constexpr int kKeepaliveMs = 30'000;
 constexpr int kKeepaliveTimeoutMs = 10'000;
 constexpr auto kClientPingMs = static_cast<int>(1000 * kMinSilence / 4);
-/// The last share of the drain time, in which streams end at their next transition so that other
-/// servers resume them without dancing anything twice.
+/// The last share of the drain time. In it streams end at their next transition, so that other
+/// servers resume them without generating frames twice.
 constexpr double kMovingShare = 0.25;
 /// How long a drained server waits for aborted calls to end.
 constexpr milliseconds kAbortTime{2'000};
 constexpr milliseconds kShutdownTime{1'000};
 /// The interval at which limits and engines are checked.
 constexpr milliseconds kWatchInterval{100};
-/// The interval at which tokens and certificate are read: a revoked token works that long at most.
+/// The interval at which tokens and certificate are read. A revoked token works for at most this
+/// long.
 constexpr milliseconds kFileInterval{500};
-/// The interval at which free memory is looked for.
+/// The interval at which free memory is returned to the system.
 constexpr milliseconds kMemoryInterval{10'000};
-/// The least default number of calls: waiting ones cost little.
+/// The least default for max_streams. Waiting calls cost little.
 constexpr int kLeastStreams = 64;
-/// An engine is broken after this many failures in a row.
+/// The number of successive failures after which an engine counts as broken.
 constexpr int kBroken = 3;
 /// ResetGuard's limit, in multiples of the calls that a connection may have.
 constexpr int kWaitingCalls = 2;
-/// How long a drained server still refuses new calls with a status. A client may hold an idle
-/// connection; once gRPC shuts down, its next call would end as CANCELLED, which does not tell it
-/// to use another server. So the shutdown itself is short.
+/// How long a drained server still refuses new calls with a status. After gRPC's shutdown, the next
+/// call on an idle connection would end with CANCELLED, which does not tell the client to use
+/// another server. So the shutdown itself is short.
 constexpr milliseconds kNotice{1'000};
 constexpr milliseconds kShutdownTimeAfterNotice{50};
 
@@ -82,7 +83,7 @@ CallLimits LimitsOf(const ServerConfig& config) {
           .unread = Milliseconds(config.unread_seconds)};
 }
 
-// One caller may have the same share of the time as of the calls.
+// One caller gets the same share of time as of calls.
 FrameShares SharesOf(const ServerConfig& config) {
   const auto share = [&config](int calls) {
     return config.max_load * std::min(1.0, double(calls) / config.max_streams);
@@ -108,7 +109,7 @@ void LogSpeed(const SampleQueue& model) {
                model.model().name, kDances, 100 * load);
 }
 
-/// Removes gRPC's reflection from one server; linking it adds it to all.
+/// Removes gRPC's reflection from one server. Linking the library adds it to all.
 class WithoutReflection final : public grpc::ServerBuilderOption {
  public:
   void UpdateArguments(grpc::ChannelArguments* /*arguments*/) override {}
@@ -133,9 +134,9 @@ SampleQueue::Options QueueingOf(const ServerConfig& config) {
   return {.max_bulk = config.max_waiting};
 }
 
-// Sets the limit of streams if the configuration leaves it open. The speed measured at start is
-// only logged, because other programs may be busy then. FrameBudget measures the dances themselves,
-// and refuses what the machine does not carry.
+// Sets max_streams if the configuration does not. The speed measured at startup is only logged,
+// because other programs may be busy then. FrameBudget measures the dances themselves, and refuses
+// those for which the machine is too slow.
 ServerConfig WithStreams(ServerConfig config,
                          const std::vector<std::unique_ptr<SampleQueue>>& queues) {
   if (config.max_streams > 0) return config;
@@ -169,9 +170,10 @@ struct Server::Impl {
       certificate.emplace(config);
       certificate->LogExpiry();
       NoteExpiry();
-      ForwardGrpcLog();  // failed handshakes are counted there
+      ForwardGrpcLog();  // it counts failed handshakes
     }
-    // Never released: a process's last grpc_shutdown can wait ten seconds for gRPC's threads.
+    // Never released, because a process's last grpc_shutdown can wait ten seconds for gRPC's
+    // threads.
     [[maybe_unused]] static const bool kept = (grpc_init(), true);
     grpc::EnableDefaultHealthCheckService(true);  // for every server in this process
     grpc::ServerBuilder builder;
@@ -237,8 +239,8 @@ struct Server::Impl {
     serving.reloads.client_ca_expires = static_cast<double>(certificate->client_ca_expires());
   }
 
-  // Reports the health of each model and of the server as a whole: SERVING, unless the server
-  // drains or an engine is broken. A removed model is NOT_SERVING.
+  // Reports the health of each model and of the server: SERVING unless the server drains or an
+  // engine is broken. A removed model is NOT_SERVING.
   void UpdateHealth() {
     const std::lock_guard lock(health_mutex);
     const std::string name = v1::Choreography::service_full_name();
@@ -277,7 +279,7 @@ struct Server::Impl {
   ChoreographyService service;
   HandshakeWatch handshakes;
   ResetGuard resets;
-  AcceptGuard newcomers;  // for the listener's thread
+  AcceptGuard newcomers;  // only the listener's thread uses it
   std::optional<CertificateFiles> certificate;
   std::unique_ptr<grpc::experimental::ExternalConnectionAcceptor> acceptor;
   std::unique_ptr<grpc::Server> server;

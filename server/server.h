@@ -9,49 +9,50 @@
 
 namespace choreo {
 
-/// choreod without its process: the gRPC server on given engines, with health checking and
-/// reflection. Thread-safe.
+/// The gRPC server on given engines, with health checking and reflection, but without choreod's
+/// process. Thread-safe.
 class Server {
  public:
   /// The engines of one model, one per device. The first model is the default.
   using Samplers = std::vector<std::unique_ptr<Sampler>>;
 
-  /// Listens when it returns. Uses only the settings about serving: listen, max_waiting,
+  /// Starts to listen before it returns. Uses only the settings for serving: listen, max_waiting,
   /// max_streams, io_threads, outbox_kib, max_file_music_mib, max_network_mib, TLS, tokens,
   /// reflection, metrics, and limits on clients. Throws Error(kInvalidArgument) for engines that do
-  /// not match, Error(kUnavailable) naming an address that cannot be listened on.
+  /// not match, and Error(kUnavailable), naming the address, if it cannot listen.
   Server(const ServerConfig& config, std::vector<Samplers> models);
   ~Server();  ///< Drain(0)
   Server(const Server&) = delete;
   Server& operator=(const Server&) = delete;
 
-  /// The port that it listens on.
+  /// The port on which the server listens.
   int port() const;
-  /// The port for Prometheus; 0 without.
+  /// The port of the Prometheus endpoint; 0 without one.
   int metrics_port() const;
-  /// Transitions running or waiting, over all models.
+  /// The number of transitions running or waiting, over all models.
   int transitions() const;
-  /// Calls in progress, except those without a first message.
+  /// The number of calls in progress, except those without a first message.
   int calls() const;
 
-  /// Logs and counts each call in progress as lost, for a process that ends without Drain. Their
-  /// ends are not logged again.
+  /// Logs and counts each call in progress as lost, for a process that ends without Drain. The end
+  /// of such a call is not logged again.
   void GiveUp();
 
-  /// Serves these from now on, the first one as the default: by name, models of `fresh`, which are
-  /// new or replace one of that name, and models already served. Calls in progress keep theirs; a
-  /// model is freed once nobody dances it. Returns false, and does nothing, after Drain. Throws
-  /// Error(kInvalidArgument), and changes nothing, for no names, a duplicate, one without a model,
-  /// and engines that do not match.
+  /// Serves the models with these names from now on; the first is the default. Each is one of
+  /// `fresh`, which may replace one of its name, or one already served. Calls in progress keep
+  /// their models; a model is freed once no call uses it. Returns false, and does nothing, after
+  /// Drain. Throws Error(kInvalidArgument), and changes nothing, without names, for a duplicate
+  /// name, for a name without a model, and for engines that do not match.
   bool SetModels(const std::vector<std::string>& names, std::vector<Samplers> fresh);
 
-  /// Tells /metrics whether the latest reread of a folder of models succeeded.
+  /// Records for /metrics whether the latest reread of the folder of models succeeded.
   void NoteModelReload(bool good);
 
-  /// Health is NOT_SERVING and new calls are UNAVAILABLE at once; calls in progress may continue
-  /// for `seconds`, then end as UNAVAILABLE; streams end at a transition, if one comes in the last
-  /// quarter. Callers up to a second after the last call still get this status (0 seconds: none
-  /// do). The server is shut down on return. Idempotent.
+  /// Drains and shuts down the server; it is shut down on return. At once, health becomes
+  /// NOT_SERVING and new calls fail with UNAVAILABLE. Calls in progress may continue for `seconds`,
+  /// and then end with UNAVAILABLE. In the last quarter of that time, streams end at their next
+  /// transition. New calls get UNAVAILABLE for up to a second after the last call, but not with 0
+  /// seconds. Idempotent.
   void Drain(double seconds);
 
  private:

@@ -9,8 +9,8 @@
 
 namespace choreo {
 
-/// choreo.v1.Choreography. Its calls run on gRPC's threads at any time. Requests of the two calls
-/// that dance come as bytes, which ReadMessage checks before parsing.
+/// Implements choreo.v1.Choreography. gRPC may call it on any of its threads at any time. Requests
+/// of the two calls that dance arrive as raw bytes, which ReadMessage checks before parsing.
 class ChoreographyService final
     : public v1::Choreography::WithRawCallbackMethod_GenerateTransition<
           v1::Choreography::WithRawCallbackMethod_StreamDance<
@@ -33,7 +33,7 @@ class ChoreographyService final
 
   Serving& serving_;
   std::mutex mutex_;
-  std::map<std::string, int> unread_infos_;  // by address, above 0. Lock: mutex_
+  std::map<std::string, int> unread_infos_;  // unread answers by address, above 0. Lock: mutex_
 };
 
 }  // namespace choreo

@@ -21,7 +21,7 @@ int Send(const std::string& to, const std::string& state) {
   sockaddr_un address{.sun_family = AF_UNIX, .sun_path = {}};
   if (to.size() >= sizeof address.sun_path) return ENAMETOOLONG;
   std::ranges::copy(to, address.sun_path);
-  if (to.front() == '@') address.sun_path[0] = '\0';  // an abstract one
+  if (to.front() == '@') address.sun_path[0] = '\0';  // an abstract socket address
   const int fd = socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0);
   if (fd < 0) return errno;
   const auto size = static_cast<socklen_t>(offsetof(sockaddr_un, sun_path) + to.size());
@@ -48,7 +48,7 @@ void TellManagerOfReload() {
   TellManager("RELOADING=1\nMONOTONIC_USEC=" + std::to_string(microseconds));
 }
 
-// $WATCHDOG_PID names who is meant, as a child inherits both.
+// $WATCHDOG_PID names the intended process, because children inherit both variables.
 void TellManagerOfLife() {
   static std::chrono::steady_clock::time_point next;
   const char* asked = std::getenv("WATCHDOG_USEC");

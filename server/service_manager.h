@@ -4,18 +4,16 @@
 
 namespace choreo {
 
-/// Tells the manager that started the process, such as systemd, its state by sd_notify(3)'s
-/// protocol: one datagram to the socket that $NOTIFY_SOCKET names. `state`: lines such as
-/// "READY=1". Does nothing without that variable; logs a warning if the manager cannot be told.
-/// Thread-safe.
+/// Reports the process's state to the service manager, such as systemd, by sd_notify(3)'s protocol:
+/// one datagram to the socket named by $NOTIFY_SOCKET. `state`: lines such as "READY=1". Does
+/// nothing without that variable, and logs a warning if sending fails. Thread-safe.
 void TellManager(const std::string& state);
 
-/// TellManager that a reread begins; "READY=1" ends it.
+/// Reports that a reread begins. TellManager("READY=1") ends it.
 void TellManagerOfReload();
 
-/// TellManager that the process lives, where $WATCHDOG_USEC asks for it: four times in that time.
-/// Call regularly, more often than that, from what stops when the server hangs; on one thread at a
-/// time.
+/// Reports that the process is alive, four times per $WATCHDOG_USEC, if that is set. Call more
+/// often than that, on one thread at a time, from code that stops when the server hangs.
 void TellManagerOfLife();
 
 }  // namespace choreo

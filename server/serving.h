@@ -18,7 +18,7 @@
 
 namespace choreo {
 
-/// Shared by the calls of a server. Thread-safe after construction; outlives every call.
+/// The state shared by a server's calls. Thread-safe after construction; outlives every call.
 struct Serving {
   Serving(std::vector<std::unique_ptr<SampleQueue>> queues, const CallLimits& limits,
           const FrameShares& shares, std::filesystem::path tokens_file, size_t outbox_limit,
@@ -36,7 +36,7 @@ struct Serving {
   /// A seed for requests without one.
   static uint64_t FreshSeed();
 
-  /// Looks at what serving costs. Call regularly.
+  /// Updates the cost of serving. Call regularly.
   void LookAtCost();
 
   CallRegistry calls;
@@ -47,10 +47,10 @@ struct Serving {
   Reloads reloads;
   const size_t outbox_bytes;
   MusicBudget file_music;
-  // Last: their threads use all of the above.
+  // Last, because their threads use all members above.
   Models models;
-  TaskPool decoding;  ///< decodes music files, which is slow, so that no other call waits for them
-  TaskPool tasks;     ///< tasks too long for gRPC's threads, but of seconds at most
+  TaskPool decoding;  ///< decodes music files, which is slow, so that other calls do not wait
+  TaskPool tasks;     ///< runs tasks too long for gRPC's threads, but of seconds at most
 };
 
 }  // namespace choreo

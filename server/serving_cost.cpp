@@ -14,7 +14,7 @@
 namespace choreo {
 namespace {
 
-/// About this many frames and looks count fully: decoding one file beside a single dance must not
+/// About this many frames and Looks count fully. Decoding one file beside a single dance must not
 /// make all dances expensive.
 constexpr double kMemoryFrames = 20 * kTypicalFrames, kMemoryLooks = 20;
 

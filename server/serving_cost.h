@@ -6,26 +6,25 @@
 
 namespace choreo {
 
-/// The CPU time that a dance's frame takes beside its sampling: music, messages, gRPC. Starts as
-/// that of music alone, measured once; then follows this process's use for recent frames.
-/// Thread-safe.
+/// The CPU time per dance frame outside sampling: music, messages and gRPC. Starts with the cost of
+/// music alone, measured once; then follows this process's use for recent frames. Thread-safe.
 class ServingCost {
  public:
   /// The process's totals since its start.
   struct Totals {
-    double cpu_s = 0, sampling_s = 0;  ///< all threads' time; sampling's part of it
-    uint64_t dance_frames = 0;         ///< frames that went to clients
+    double cpu_s = 0, sampling_s = 0;  ///< of all threads; the part spent on sampling
+    uint64_t dance_frames = 0;         ///< frames sent to clients
   };
 
   ServingCost();
-  /// `seconds_a_frame`: the cost to begin with.
+  /// `seconds_a_frame`: the initial cost.
   explicit ServingCost(double seconds_a_frame);
 
-  /// Learns from the time since the last look, if it went to dances alone. Call regularly.
+  /// Updates the cost from the time since the last Look, if only dances ran. Call regularly.
   void Look(const Totals& now, bool dances_alone);
 
   double seconds_a_frame() const;
-  /// The share of this machine's usable cores that this many frames a second take.
+  /// The share of this machine's usable cores that `frames_per_second` take.
   double LoadOf(double frames_per_second) const;
 
  private:

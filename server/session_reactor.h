@@ -15,8 +15,8 @@
 
 namespace choreo {
 
-/// The reactor of a streaming call: passes gRPC's events to the call's session, which may outlive
-/// it. `Grpc` is gRPC's reactor for that kind of call. Deletes itself.
+/// The reactor of a streaming call. Passes gRPC's events to the call's session, which may outlive
+/// the reactor. `Grpc`: gRPC's reactor class for this kind of call. Deletes itself.
 template <class Grpc, class Response, class Session>
 class SessionReactor : public Grpc, public Outbox<Response>::Wire {
  public:
@@ -27,7 +27,7 @@ class SessionReactor : public Grpc, public Outbox<Response>::Wire {
     this->StartWrite(&written_);
   }
   void Finish(const grpc::Status& status) override { Grpc::Finish(status); }
-  // TryCancel would tell the client no more than CANCELLED. Details do not fit in such a status.
+  // TryCancel would send only CANCELLED. This status can carry no details either.
   void Reset(const grpc::Status& status) override {
     grpc_call_cancel_with_status(context_->c_call(),
                                  static_cast<grpc_status_code>(status.error_code()),
@@ -44,7 +44,7 @@ class SessionReactor : public Grpc, public Outbox<Response>::Wire {
 
   void OnDone() override {
     const std::unique_ptr<SessionReactor> own(this);
-    // gRPC knows by now whether the client's connection took the status.
+    // By now gRPC knows whether the client's connection accepted the status.
     session_->Release(/*lost=*/context_->IsCancelled());
     serving_.calls.Leave(session_.get());
   }
@@ -55,8 +55,8 @@ class SessionReactor : public Grpc, public Outbox<Response>::Wire {
         session_(std::make_shared<Session>(serving, this, Named(*context))),
         context_(context) {}
 
-  /// Registers the call with the service and runs `begin`; fails a client without a token, and when
-  /// the service is full.
+  /// Registers the call with the service and runs `begin`. Fails the call if it has no valid token
+  /// or the service is full.
   template <class Begin>
   void Enter(Begin begin) {
     if (!session_->Authenticate(HeaderOf(*context_, "authorization"))) return;

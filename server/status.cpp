@@ -14,7 +14,7 @@
 namespace choreo {
 namespace {
 
-constexpr size_t kMaxStatusBytes = 600;  // of a message
+constexpr size_t kMaxStatusBytes = 600;  // of a status message
 
 struct Mapping {
   grpc::StatusCode code;
@@ -48,9 +48,9 @@ Mapping Map(ErrorCode code) {
   return {grpc::StatusCode::INTERNAL, "INTERNAL", false};
 }
 
-// Turns text that may quote the client into one short line: a status travels in HTTP/2's trailers,
-// which are limited to 8 KiB, and goes to people and logs. Keeps both ends of a long text: the
-// first names the field, the last the limit.
+// Turns text that may quote the client into one short line, because a status is sent in HTTP/2's
+// trailers, which are limited to 8 KiB, and is read by people and written to logs. Keeps both ends
+// of a long text: the beginning names the field, the end the limit.
 std::string OneShortLine(std::string_view text) {
   std::string line;
   for (const char c : text) {
@@ -117,7 +117,7 @@ grpc::Status ToStatus(const Error& error, double retry_after) {
 }
 
 Violation ViolationOf(const Error& error) {
-  // ErrorInfo has the field as the text names it.
+  // ErrorInfo has the field as named in the message text.
   return {OneShortLine(PathInMessage(error)), OneShortLine(error.Of("").what())};
 }
 
@@ -126,7 +126,7 @@ grpc::Status Unauthenticated(const std::string& message) {
 }
 
 const char* NameOf(grpc::StatusCode code) {
-  // In the order of their numbers.
+  // Indexed by status code.
   static constexpr std::array kNames = {
       "OK",
       "CANCELLED",

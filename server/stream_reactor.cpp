@@ -30,7 +30,7 @@ namespace {
 using DanceRequest = v1::StreamDanceRequest;
 using DanceResponse = v1::StreamDanceResponse;
 
-/// A longer piece of music is processed on the task pool, so that no thread of gRPC waits for it.
+/// The longest piece of music handled on a gRPC thread. Longer ones go to the task pool.
 constexpr size_t kLongAudioBytes = 64 << 10;
 
 /// The session of a StreamDance. Messages are handled one at a time.
@@ -47,8 +47,8 @@ class DanceSession final : public CallSession<DanceResponse, DanceStream>,
     return outbox().open();
   }
 
-  /// The pool that should handle this message because it takes long; null if the caller's thread
-  /// can. A null `request` is the half-close.
+  /// The pool for a message that takes long to handle; null if the caller's thread can handle it. A
+  /// null `request` is the half-close.
   TaskPool* PoolFor(const DanceRequest* request) const {
     const bool ends_music = request == nullptr || request->has_end_of_audio();
     if (ends_music && !file_.empty()) return &serving_.decoding;
@@ -159,7 +159,8 @@ class DanceSession final : public CallSession<DanceResponse, DanceStream>,
     }
   }
 
-  // Takes a message of a kind of which many may come: errors number those accepted.
+  // Handles a message of a repeatable kind. Errors give its index among the accepted messages of
+  // that kind.
   void Number(const DanceRequest& request, const std::string& key_id, const auto& take) {
     int& number = accepted_[request.request_case()];
     try {
@@ -190,7 +191,7 @@ class DanceSession final : public CallSession<DanceResponse, DanceStream>,
     Adopt(std::make_shared<DanceStream>(*queue_, config, shared_from_this()));
   }
 
-  // A client sends a file as a whole, also when it resumes.
+  // A client sends the whole file, even when it resumes a dance.
   bool SendsFile() const { return audio_ && audio_->encoding() == v1::AUDIO_ENCODING_FILE; }
 
   void TakeAudio(DanceStream& stream, const v1::Audio& audio) {
@@ -249,7 +250,8 @@ class DanceSession final : public CallSession<DanceResponse, DanceStream>,
     }
   }
 
-  // Rejects a key that cannot be used, where the client wishes so. Call inside a catch block.
+  // Rejects an unusable key if the client has requested that; otherwise rethrows. Call inside a
+  // catch block.
   void Reject(DanceStream& stream, const std::string& id, const std::optional<KeyMoment>& when,
               const Error& error) {
     if (!rejects_keys_) throw;
@@ -257,16 +259,16 @@ class DanceSession final : public CallSession<DanceResponse, DanceStream>,
     stream.RejectKey(id, when, path, description);
   }
 
-  // The configuration sets these, before the stream exists.
+  // The configuration sets the members below, before the stream exists.
   Models::Use queue_;  // keeps the model, even if the server stops serving it
   v1::RotationEncoding encoding_ = v1::ROTATION_ENCODING_UNSPECIFIED;
   uint64_t seed_ = 0;
   std::optional<Player> player_;
   std::optional<v1::AudioFormat> audio_;
   std::vector<double> music_beats_;
-  bool rejects_keys_ = false;  // that cannot be used, instead of ending the call
+  bool rejects_keys_ = false;  // rejects unusable keys instead of ending the call
 
-  // Messages change these.
+  // Messages change the members below.
   std::map<DanceRequest::RequestCase, int> accepted_;  // messages of each kind
   MusicFile file_;
   bool file_decoded_ = false;
@@ -291,7 +293,7 @@ class StreamReactor final
     if (pool == nullptr || !session_->outbox().open()) return Process(ok);
     pool->Post([this, ok, session = session_, hold]() mutable {
       Process(ok);
-      hold.reset();  // `this` may be gone from here on; the session is not
+      hold.reset();  // `this` may be destroyed from here on; the session still exists
     });
   }
 

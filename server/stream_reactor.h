@@ -6,7 +6,7 @@
 
 namespace choreo {
 
-/// Serves one StreamDance; deletes itself when the call is over.
+/// Makes the reactor that serves one StreamDance call. It deletes itself when the call is over.
 grpc::ServerBidiReactor<grpc::ByteBuffer, grpc::ByteBuffer>* MakeStreamReactor(
     Serving& serving, grpc::CallbackServerContext* context);
 

@@ -16,15 +16,15 @@
 
 namespace choreo {
 
-/// Totals over all calls so far. Thread-safe.
+/// Totals over all calls since the start. Thread-safe.
 class Tally {
  public:
-  static constexpr const char* kInfoMethod = "GetServerInfo";  ///< it dances nothing
+  static constexpr const char* kInfoMethod = "GetServerInfo";  ///< the call without a dance
 
-  /// Calls by method and status.
+  /// Numbers of calls by method and status.
   using Calls = std::map<std::pair<std::string, grpc::StatusCode>, uint64_t>;
 
-  /// Refused calls by Refusal.
+  /// Numbers of refused calls by Refusal.
   using Refusals = std::array<uint64_t, kRefusals.size()>;
 
   /// Counts and logs a call that has ended.
@@ -47,7 +47,7 @@ class Tally {
     const std::lock_guard lock(mutex_);
     return calls_;
   }
-  /// How long calls took, by method and status; without kinds that had no call.
+  /// Durations of calls by method and status. Omits kinds without calls.
   std::map<std::pair<std::string, grpc::StatusCode>, Histogram::Snapshot> seconds() const {
     const std::lock_guard lock(mutex_);
     std::map<std::pair<std::string, grpc::StatusCode>, Histogram::Snapshot> all;
@@ -59,7 +59,7 @@ class Tally {
     return refusals_;
   }
 
-  /// Totals of calls that dance: refused ones, and all others.
+  /// Numbers of calls that dance: refused ones, and all others.
   struct Sum {
     uint64_t served = 0, refused = 0;
   };
@@ -67,7 +67,7 @@ class Tally {
     const std::lock_guard lock(mutex_);
     return sum_;
   }
-  /// The same of a token's holder.
+  /// The numbers of one token holder's calls that dance.
   Sum SumOf(const std::string& holder) const {
     const std::lock_guard lock(mutex_);
     const auto found = of_holder_.find(holder);
@@ -77,11 +77,11 @@ class Tally {
   std::atomic<uint64_t> frames = 0;        ///< received by ended calls
   std::atomic<uint64_t> dance_frames = 0;  ///< sent by all dances
   std::atomic<uint64_t> dances_resumed = 0;
-  std::atomic<uint64_t> connections = 0;  ///< that came, refused ones too
+  std::atomic<uint64_t> connections = 0;  ///< received, including refused ones
   std::array<std::atomic<uint64_t>, kConnectionRefusals.size()> refused_connections = {};
   Histogram first_frame_s{Histogram::Seconds()};
-  Histogram sending_lateness_s{Histogram::Seconds()};  ///< of dances' frames (Player)
-  /// Distance of the model's own frames from their keys, metres, before arrival corrected it.
+  Histogram sending_lateness_s{Histogram::Seconds()};  ///< of dance frames (Player)
+  /// Distance of the model's frames from their keys, metres, before Arrival corrects it.
   Histogram key_error_m{{0.001, 0.0025, 0.005, 0.01, 0.025, 0.05, 0.1, 0.25, 0.5, 1}};
   Histogram support{
       {0.5, 0.6, 0.7, 0.8, 0.85, 0.9, 0.95, 0.99}};  ///< from each dance's QualityReport

@@ -9,14 +9,14 @@
 
 namespace choreo {
 
-/// A few threads for work too long for gRPC's: decoding files, the features of minutes of music. A
-/// call has at most one task here at a time, which bounds the queue. Thread-safe.
+/// A few threads for work too long for gRPC's threads, such as decoding files or analysing minutes
+/// of music. A call has at most one task here at a time, which bounds the queue. Thread-safe.
 class TaskPool {
  public:
   explicit TaskPool(int threads);
-  ~TaskPool();  ///< Runs what is queued, then joins.
+  ~TaskPool();  ///< Runs all queued tasks, then joins the threads.
 
-  /// Tasks must not throw.
+  /// Queues a task, which must not throw.
   void Post(std::function<void()> task);
 
  private:

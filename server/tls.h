@@ -8,8 +8,8 @@
 
 namespace choreo {
 
-/// Makes the credentials of connections; null `files`: without TLS. New connections use the files'
-/// versions of a second ago. The files must outlive the server.
+/// Makes the server's credentials; without TLS if `files` is null. New connections use the files as
+/// they were at most a second ago. `files` must outlive the server.
 std::shared_ptr<grpc::ServerCredentials> MakeCredentials(const CertificateFiles* files);
 
 }  // namespace choreo

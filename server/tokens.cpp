@@ -19,7 +19,7 @@ namespace {
 constexpr size_t kMaxTokensBytes = 1 << 20;
 constexpr size_t kMaxLinesLength = 60;  // characters of a list of line numbers
 
-// Schemes ignore case (RFC 7235).
+// Schemes are case-insensitive (RFC 7235).
 bool IsBearer(std::string_view scheme) {
   constexpr std::string_view kBearer = "bearer";
   return std::ranges::equal(scheme, kBearer, [](char a, char b) {
@@ -83,7 +83,7 @@ Tokens::Content Tokens::Parse(const std::string& text) {
   return content;
 }
 
-// Never quotes a line: it may contain a token.
+// Never quotes a line, because it may contain a token.
 Error Tokens::BadLines(const std::string& numbers) const {
   return InvalidArgument("--tokens", file_.string() + " line " + numbers +
                                          ": not \"SHA256 NAME\" with 64 hexadecimal digits");
@@ -175,12 +175,13 @@ std::optional<bool> Tokens::Refresh() {
   }
   Content content = Parse(text);
   const bool is_empty = content.holders.empty() && content.bad_lines.empty();
-  // So it is for a moment while it is written: it has to stay empty until the next look.
+  // A file is empty for a moment while it is written, so it must be still empty at the next
+  // Refresh.
   if (is_empty && !std::exchange(seems_empty_, true)) return std::nullopt;
   seems_empty_ = is_empty;
   text_ = std::move(text);
   const bool all_good = content.bad_lines.empty();
-  // Whoever empties the file revokes all; one of bad lines is another file, or not finished.
+  // Emptying the file revokes all tokens. A file of bad lines is the wrong file or unfinished.
   if (content.holders.empty() && !is_empty) {
     spdlog::error("{}; the {} tokens known before stay valid", BadLines(content.bad_lines).what(),
                   count());

@@ -28,8 +28,8 @@ class TransitionSession final : public CallSession<v1::GenerateTransitionRespons
   TransitionSession(Serving& serving, Wire* wire, Caller caller)
       : CallSession(serving, wire, "GenerateTransition", std::move(caller)) {}
 
-  /// Reads and processes the music, which takes long; files go to the decoding pool. The call lasts
-  /// at least as long as `hold`, so no more files wait than there are calls.
+  /// Reads and processes the music, which takes long. Files go to the decoding pool. The call lasts
+  /// at least as long as `hold`, so there are never more waiting files than calls.
   void Start(const grpc::ByteBuffer& bytes,
              std::shared_ptr<Outbox<v1::GenerateTransitionResponse>::Hold> hold) {
     Guard([&] {
@@ -37,7 +37,7 @@ class TransitionSession final : public CallSession<v1::GenerateTransitionRespons
       ReadMessage(bytes, &message);
       if (!message.has_config()) throw InvalidArgument("config", "missing");
       queue_ = serving_.models.Find(message.config().model(), "config.model");
-      // No music is decoded for an invalid request.
+      // Validates before decoding, so that an invalid request costs no decoding.
       ValidGroup request = ToGroupRequest(message, queue_->model(), Serving::FreshSeed());
       Name(queue_->model(), request->seed);
       serving_.frames.TakeTransition(this, *queue_, party(), request->candidates * request->frames);
@@ -100,7 +100,7 @@ class TransitionSession final : public CallSession<v1::GenerateTransitionRespons
   void OnError(const Error& error) override { EndIn(error); }
 
  private:
-  // Adds a file's samples, and beats and passages that the client has not given.
+  // Adds a file's samples, and the beats and passages if the client gave none.
   void AddMusic(const v1::Audio& audio, ValidGroup* request) {
     RequireOpen();
     auto file = DecodedMusic::Of(std::as_bytes(std::span(audio.data())), [this] { RequireOpen(); });
@@ -118,7 +118,7 @@ class TransitionSession final : public CallSession<v1::GenerateTransitionRespons
 
   void Begin(const v1::GenerateTransitionRequest& message, ValidGroup request) {
     const ModelInfo& model = queue_->model();
-    RequireOpen();  // does not start for a client that has left
+    RequireOpen();  // does not start if the client has left
     encoding_ = message.config().encoding();
     sends_file_ = message.config().audio_format().encoding() == v1::AUDIO_ENCODING_FILE;
     seed_ = request->seed;
@@ -130,9 +130,9 @@ class TransitionSession final : public CallSession<v1::GenerateTransitionRespons
 
   // Written before the group exists. Nothing refers to the message, which may be freed before the
   // group.
-  Models::Use queue_;  // the transition keeps its model, whatever is served meanwhile
+  Models::Use queue_;  // keeps the model even if the server withdraws it
   v1::RotationEncoding encoding_ = v1::ROTATION_ENCODING_UNSPECIFIED;
-  bool sends_file_ = false;  // a client sends a file as a whole, also when it resumes
+  bool sends_file_ = false;  // a client sends the whole file, even when it resumes
   uint64_t seed_ = 0;
   std::optional<Warning> music_damaged_;
 };

@@ -6,7 +6,8 @@
 
 namespace choreo {
 
-/// Serves one GenerateTransition; deletes itself when the call ends. `request` must live as long.
+/// Makes the reactor that serves one GenerateTransition call. It deletes itself when the call ends.
+/// `request` must live until then.
 grpc::ServerWriteReactor<grpc::ByteBuffer>* MakeTransitionReactor(
     Serving& serving, grpc::CallbackServerContext* context, const grpc::ByteBuffer* request);
 
