@@ -25,7 +25,7 @@ struct Peaks {
 
 template <typename Channels>
 Peaks PeaksOf(std::span<const float> interleaved, Channels channels) {
-  constexpr size_t kLanes = 16;  // frames, of which none waits for another
+  constexpr size_t kLanes = 16;  // frames processed independently of each other
   std::array<float, kLanes> level{}, sum{};
   const auto add = [&](size_t at, size_t lane) {
     float mixed = 0;

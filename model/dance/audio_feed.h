@@ -15,53 +15,53 @@
 
 namespace choreo {
 
-/// Throws Error(kInvalidArgument, "audio.data") unless these are whole sample frames of finite
-/// numbers. The message gives positions counted from `first_sample`.
+/// Throws Error(kInvalidArgument, "audio.data") unless the data is whole sample frames of finite
+/// numbers. The message counts positions from `first_sample`.
 void CheckSamples(std::span<const float> interleaved, int channels, int64_t first_sample);
 
-/// Past rows whose sound is kept: as many as a dance looks back.
+/// The number of past rows whose sound is kept: as far as a dance looks back.
 inline constexpr int kSoundMemory = kDynamicsMemory + kTypicalFrames;
 
-/// Turns samples into what a dance hears: the sound of each row, and the rows of a model's own
-/// hearing. One thread at a time pushes; any thread reads.
-/// Readers never wait for a transform: rows are computed outside the lock and published in short
-/// turns.
+/// Converts samples to what a dance hears: the sound of each row, and the rows of the model's
+/// Hearing. One thread at a time may push; any thread may read. Readers never wait for a transform,
+/// because rows are computed outside the lock and published in short turns.
 class AudioFeed {
  public:
   /// Throws what FeatureStream throws.
   AudioFeed(double sample_rate, int channels, int64_t first_sample, Hearing hearing = {});
 
-  /// Calls `on_rows` whenever it has added rows. Throws Error(kOutOfRange) unless `first_sample` is
-  /// the next one, Error(kInvalidArgument) for bad samples and beyond kMaxAudioSeconds,
-  /// Error(kFailedPrecondition) after Finish. If it throws, it has taken nothing.
+  /// Adds samples, and calls `on_rows` whenever it has added rows. Throws Error(kOutOfRange) unless
+  /// `first_sample` is the next sample, Error(kInvalidArgument) for bad samples and beyond
+  /// kMaxAudioSeconds, and Error(kFailedPrecondition) after Finish. If it throws, it has added
+  /// nothing.
   void Push(std::span<const float> interleaved, int64_t first_sample,
             const std::function<void()>& on_rows);
-  /// Makes every row ready; rows beyond the audio are silence.
+  /// Ends the audio. Every row is ready from now on; rows after the audio are silence.
   void Finish();
   bool finished() const { return features_.finished(); }  // pushing side
 
   int64_t next_sample() const { return features_.next_sample(); }  // pushing side
   /// The number of frames, from time 0, that start before the end of the samples so far:
-  /// ceil(samples fps / rate). Only the pushing side calls it.
+  /// ceil(samples fps / rate). Call on the pushing side only.
   int64_t EndFrame(double fps) const;
-  /// The length of the music so far. Only the pushing side calls it.
+  /// The length of the music so far. Call on the pushing side only.
   double seconds() const { return static_cast<double>(features_.next_sample()) / sample_rate_; }
-  /// Whether the whole music so far is quieter than kMinLevel; false for one that begins later than
-  /// its first sample. Only the pushing side calls it.
+  /// Whether all music so far is quieter than kMinLevel. False if the feed does not begin with the
+  /// music's first sample. Call on the pushing side only.
   bool silent() const { return whole_ && peak_ < kMinLevel; }
-  /// Whether its channels cancel each other in the mix, of which a hundredth at most is left.
-  /// Only the pushing side calls it.
+  /// Whether the channels cancel each other, so that the mix has at most a hundredth of their peak.
+  /// Call on the pushing side only.
   bool cancels() const { return whole_ && !silent() && mixed_peak_ <= 0.01F * peak_; }
 
-  /// Rows below this one can be read.
+  /// The first row that cannot be read yet.
   int64_t ready() const;
-  /// What the model hears in the `count` rows before `frame`, oldest first, one per column; all
-  /// must be ready. Rows before 0 are silence.
+  /// The model's rows, one per column, for the `count` rows before `frame`, oldest first. All must
+  /// be ready. Rows before 0 are silence.
   Eigen::MatrixXf History(int64_t frame, int count) const;
-  /// The sound of the last `count` rows before `row`, at most kSoundMemory; fewer at the start of
-  /// the music. All must be ready.
+  /// The sound of the last `count` rows before `row`, fewer at the start of the music. `count`: at
+  /// most kSoundMemory. All must be ready.
   std::vector<RowSound> Sounds(int64_t row, int count) const;
-  /// Frees the rows before this one, so that an hour's stream takes no more memory than a second's.
+  /// Frees the rows before `row`, so that memory does not grow with the stream.
   void Forget(int64_t row);
 
  private:
@@ -73,15 +73,15 @@ class AudioFeed {
   int channels_;
   FeatureStream features_;
   const Hearing hearing_;
-  Eigen::VectorXf silence_;          // as the model hears it; empty if it hears nothing
-  bool whole_;                       // begins with the music's first sample
-  float peak_ = 0, mixed_peak_ = 0;  // of its channels, and of their mix
+  Eigen::VectorXf silence_;  // the model's row for silence; empty if the model does not hear
+  bool whole_;               // whether it begins with the music's first sample
+  float peak_ = 0, mixed_peak_ = 0;  // of the channels, and of their mix
 
-  mutable std::mutex mutex_;  // of what follows
+  mutable std::mutex mutex_;  // guards the members below
   int64_t first_row_;
   int64_t ready_;
-  int64_t published_;                 // rows before it
-  std::deque<Eigen::VectorXf> rows_;  // as the model hears them, from first_row_ to published_
+  int64_t published_;                 // the first row not yet published
+  std::deque<Eigen::VectorXf> rows_;  // the model's rows, from first_row_ to published_
   int64_t first_sound_;
   std::deque<RowSound> sounds_;  // from first_sound_ on
 };

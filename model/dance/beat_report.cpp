@@ -13,7 +13,7 @@ namespace {
 constexpr double kOnsetOverMedian = 2;  // an onset exceeds the median by this factor
 constexpr int kMedianRows = 12 * static_cast<int>(kModelFps);
 
-// Whether the music rose in the frame of a beat or in the one before.
+// Whether the music had an onset in a beat's frame or in the one before.
 bool HasOnset(const AudioFeed& audio, int64_t frame) {
   std::vector<float> onsets;
   for (const RowSound& sound : audio.Sounds(frame + 1, kMedianRows)) onsets.push_back(sound.onset);
@@ -30,10 +30,10 @@ void BeatReport::Start(std::span<const Beat> beats, int64_t from) {
   std::optional<double> last = last_;
   const auto first =
       static_cast<size_t>(std::ranges::lower_bound(seconds, Seconds(from)) - seconds.begin());
-  // Includes the last beat before this transition: the previous one may have left it out.
+  // Includes the last beat before this transition, which the previous one may have omitted.
   for (size_t i = last && first > 0 ? first - 1 : first; i < beats.size(); ++i) {
     if (last && seconds[i] - *last <= 0.5 * BeatStep(seconds, i))
-      continue;  // reported a little earlier
+      continue;  // already reported, slightly earlier
     ahead_.push_back({beats[i], BeatStep(seconds, i)});
     last = seconds[i];
   }

@@ -12,17 +12,18 @@
 
 namespace choreo {
 
-/// Watches a dance, transition by transition, for what no body can do (motion/body_limits.h):
-/// joints that are too fast, and flights that are too long. Not thread-safe.
+/// Checks a dance, transition by transition, against the limits of human bodies
+/// (motion/body_limits.h): joint speed and length of flight. Not thread-safe.
 class BodyWatch {
  public:
-  /// `before`: the pose before the first frame, if there is one. The skeleton must outlive it.
+  /// `before`: the pose before the first frame, if any. The skeleton must outlive this object.
   BodyWatch(const Skeleton& skeleton, double fps, const std::optional<Pose>& before);
 
-  /// A transition of so many frames begins, to a key of this id or, if empty, to none.
+  /// Begins a transition of `frames` frames to the key with this id; an empty id means no key.
   void Begin(const std::string& key_id, int64_t frames);
   void Add(int64_t frame, const Pose& pose);
-  /// What went beyond the limits since Begin: its fastest step, and flights, each once.
+  /// Returns warnings about limits exceeded since Begin: one for the fastest step, and one for each
+  /// flight.
   std::vector<Warning> Take();
 
  private:
@@ -41,8 +42,8 @@ class BodyWatch {
     int64_t frame = 0;
   } fastest_;
   std::optional<int64_t> aloft_from_;  // the first frame of the present flight
-  int64_t aloft_ = 0;                  // its frames
-  bool told_ = false;                  // a warning of it was taken
+  int64_t aloft_ = 0;                  // frames of the present flight so far
+  bool told_ = false;                  // whether the present flight's warning was taken
   std::vector<Warning> flights_;
 };
 

@@ -19,13 +19,13 @@
 
 namespace choreo {
 
-/// Limits per dance: on requests, and on the points of all paths plus the values of all other
-/// controls.
+/// Limits per dance: on the number of requests, and on the sum of all paths' points and all other
+/// controls' values.
 inline constexpr size_t kMaxControls = 1000;
 inline constexpr size_t kMaxControlValues = 1'000'000;
 
-/// The class that follows a control's requests over a dance: Validate, Set and Fill as HeldTrack
-/// has them. Stance, BehindEnd and Missed are for those that need them.
+/// Selects the class that tracks a control's requests over a dance. It has Validate, Set and Fill
+/// like HeldTrack, and may have Stance, BehindEnd and Missed.
 template <typename Request>
 struct TrackFor {
   using Track = HeldTrack<Request>;
@@ -41,8 +41,8 @@ struct TrackFor<VelocityRequest> {
 template <typename Request>
 using TrackOf = typename TrackFor<Request>::Track;
 
-/// Throws Error(kInvalidArgument) below `field` for bad values and for controls that the model does
-/// not support.
+/// Throws Error(kInvalidArgument) below `field` for invalid values and for controls that the model
+/// does not support.
 template <typename Request>
 void ValidateControls(const Request& request, const ModelInfo& model, const std::string& field,
                       std::span<const ControlRow> rows = kControls) {
@@ -59,7 +59,7 @@ void ValidateControls(const Request& request, const ModelInfo& model, const std:
       request);
 }
 
-/// How many points or values a control's request has: those of its largest field.
+/// Counts the points or values of a control's request: the size of its largest field.
 struct ValueCount {
   size_t* most;
 
@@ -72,23 +72,23 @@ struct ValueCount {
   }
 };
 
-/// The frames that a request of a control changes.
+/// The frames that a control's request changes.
 struct ControlChange {
-  std::string_view label;  ///< the control's
+  std::string_view label;  ///< the control's label
   ChangedFrames frames;
 };
 
-/// The controls of one dance, `Tracks`: a track for each row of `Request`. Later controls override
-/// earlier ones, as their tracks say. Cheap to copy. Not thread-safe.
+/// The controls of one dance. `Tracks` has a track for each row of `Request`. Later controls
+/// override earlier ones in the way that their track defines. Cheap to copy. Not thread-safe.
 template <typename Request, typename Tracks>
 class ControlTrackOf {
  public:
   /// The model must outlive the track.
   explicit ControlTrackOf(const ModelInfo& model) : model_(&model) {}
 
-  /// Applies to transitions that begin at `from` or later, and returns what changes. The request
-  /// must be valid; `from` never decreases between calls. Throws Error(kInvalidArgument) beyond
-  /// kMaxControls or kMaxControlValues.
+  /// Sets controls for transitions that begin at `from` or later, and returns the changed frames.
+  /// The request must be valid. `from` must not decrease between calls. Throws
+  /// Error(kInvalidArgument) beyond kMaxControls or kMaxControlValues.
   std::vector<ControlChange> Set(const Request& request, int64_t from, const std::string& field,
                                  std::span<const ControlRow> rows = kControls) {
     if (requests_ >= kMaxControls) {
@@ -119,8 +119,8 @@ class ControlTrackOf {
   }
 
   /// The pose before `first_frame` of a dancer without a history: at rest, facing +Z, on the path
-  /// if one covers this frame, or else at the origin. A key on that very frame sets the pose. The
-  /// tracks' Stance say so; one of them must have it.
+  /// if one covers this frame, otherwise at the origin. A key on `first_frame` sets the pose. The
+  /// tracks' Stance functions give the pose; at least one track must have one.
   Pose Stance(int64_t first_frame, const std::optional<Target>& key_on_it) const {
     Pose stance;
     Request::VisitControls(
@@ -132,8 +132,9 @@ class ControlTrackOf {
     return stance;
   }
 
-  /// Fills in the spec's controls. Reads its first frame, length, history (at least one pose) and
-  /// target. Warns where controls and keys contradict each other; `key_id` names the key.
+  /// Fills in the spec's controls. Reads the spec's first frame, length, history (at least one
+  /// pose) and target. Warns where controls and keys contradict each other. `key_id`: the key's
+  /// name in warnings.
   void FillControls(const std::string& key_id, TransitionSpec* spec,
                     std::vector<Warning>* warnings) const {
     Request::VisitControls(
@@ -143,14 +144,14 @@ class ControlTrackOf {
         tracks_);
   }
 
-  /// What the tracks warn of when the dance ends before `end`.
+  /// The tracks' warnings if the dance ends before `end`.
   std::vector<Warning> BehindEnd(int64_t end) const {
     return Asked([&](const auto& track) -> std::optional<Warning> {
       if constexpr (requires { track.BehindEnd(end); }) return track.BehindEnd(end);
       return std::nullopt;
     });
   }
-  /// What of the tracks' requests the dance of this report missed.
+  /// The tracks' warnings about requests that the reported dance did not meet.
   std::vector<Warning> Missed(const QualityReport& report) const {
     return Asked([&](const auto& track) -> std::optional<Warning> {
       if constexpr (requires { track.Missed(report); }) return track.Missed(report);
@@ -159,7 +160,7 @@ class ControlTrackOf {
   }
 
  private:
-  // The warnings that `ask` returns of the tracks.
+  // The warnings that `ask` returns for the tracks.
   std::vector<Warning> Asked(const auto& ask) const {
     std::vector<Warning> warnings;
     Request::VisitControls(

@@ -37,7 +37,7 @@ class DanceChain::Job : public SampleJob {
   int frames() const override { return static_cast<int>(segment_.to - segment_.from); }
   bool Cancelled() const override { return retired_ || chain_->cancelled_; }
 
-  /// The chain no longer needs this transition: the queue drops it.
+  /// Cancels a transition that the chain no longer needs; the queue drops it.
   void Retire() { retired_ = true; }
   /// The failure is reported once all frames before the transition are handed out.
   void Fail(const Error& failure) { failure_ = failure; }
@@ -46,14 +46,15 @@ class DanceChain::Job : public SampleJob {
   const std::optional<Error>& failure() const { return failure_; }
   const Segment& segment() const { return segment_; }
 
-  /// Constant once it is sampled.
+  /// Constant once sampled.
   const std::vector<Warning>& warnings() const { return warnings_; }
   const std::vector<Beat>& beats() const { return beats_; }
   const TransitionRun& run() const { return *run_; }
   const DanceFrame& FrameAt(int64_t frame) const {
     return run_->frames()[static_cast<size_t>(frame - segment_.from)];
   }
-  /// The state from which a transition that begins at `frame`, in or right after this one, starts.
+  /// The state from which a transition that begins at `frame` starts. `frame` is in this transition
+  /// or directly after it.
   DancedState StateBefore(int64_t frame) const {
     return run_->StateAfter(static_cast<size_t>(frame - segment_.from));
   }
@@ -87,8 +88,8 @@ class DanceChain::Job : public SampleJob {
   const std::shared_ptr<DanceChain> chain_;
   const Segment segment_;
   const double deadline_;
-  std::optional<DanceScore::Next> next_;  // until it is prepared
-  std::optional<TransitionRun> run_;      // from then on
+  std::optional<DanceScore::Next> next_;  // until the transition is prepared
+  std::optional<TransitionRun> run_;      // once the transition is prepared
   std::vector<Beat> beats_;
   std::vector<Warning> warnings_;
   std::optional<Slices<>> slices_;  // the worker's
@@ -121,7 +122,7 @@ DanceChain::DanceChain(SampleQueue& queue, const ValidDance& config,
 }
 
 void DanceChain::Begin(const ValidDance& config) {
-  // Starts frames that the config has granted, too.
+  // Also starts the frames that the config has granted.
   Apply([&](DanceScore&) {
     const std::vector<Warning> warnings = config->Warnings(model_);
     return DanceEvents(warnings.begin(), warnings.end());
@@ -193,7 +194,7 @@ void DanceChain::React(const std::function<void()>& change) noexcept {
   }
 }
 
-// Jobs keep the chain alive, and the chain its jobs: this breaks the cycle.
+// Jobs and chain keep each other alive. This breaks the cycle.
 void DanceChain::DropJobs() {
   if (jobs_.empty()) return;
   for (const std::shared_ptr<Job>& job : jobs_) job->Retire();
@@ -205,7 +206,7 @@ bool DanceChain::HandOut() {
   return pacer_.Run(
       mutex_, kFramesASlice, [this] { return TakeNext(); },
       [this](std::function<void()> report) {
-        if (report) std::exchange(report, {})();  // and frees what it holds
+        if (report) std::exchange(report, {})();  // and frees its captures
         mailbox_.Deliver();                       // the sink may pause the dance
       });
 }
@@ -223,7 +224,8 @@ void DanceChain::HandOutHere() {
 
 void DanceChain::OnFailure(const Error& failure) noexcept {
   React([&] {
-    // A closing queue (kUnavailable) does not take back sampled frames. The sink threw the rest.
+    // After kUnavailable from a closing queue, frames already sampled are still handed out. Other
+    // errors come from the sink.
     if (failure.code() != ErrorCode::kUnavailable) mailbox_.PostError(failure);
   });
 }
@@ -249,7 +251,7 @@ std::function<void()> DanceChain::TakeNext() {
   if (audio_ && ready <= next_frame_) return {};
   std::optional<Key> key;
   if (next_frame_ + 1 == job->segment().to && job->run().arrival())
-    key = score_.Current()->key;  // its hands may be newer than the job's
+    key = score_.Current()->key;  // its hands may have changed since the job was made
   return [this, job, frame = next_frame_++, key = std::move(key)] { Report(*job, frame, key); };
 }
 
@@ -262,7 +264,7 @@ std::function<void()> DanceChain::FinishTransition() {
   }
   score_.Finish();
   if (next_frame_ > job->segment().from) danced_ = job->StateBefore(next_frame_);
-  // No frame follows the end, so no transition is needed any more.
+  // No frame follows the end, so the remaining transitions are not needed.
   if (score_.EndsBy(next_frame_)) DropJobs();
   SubmitNext();
   return [this, job = std::move(job), frame = next_frame_, danced = danced_] {
@@ -289,13 +291,13 @@ void DanceChain::Report(const Job& job, int64_t frame, const std::optional<Key>&
 
 void DanceChain::SubmitNext() {
   if (over() || cancelled_ || jobs_.size() > kMaxAhead) return;
-  if (!jobs_.empty() && !jobs_.back()->sampled()) return;  // the start of the next is not known yet
+  if (!jobs_.empty() && !jobs_.back()->sampled()) return;  // the next start is not known yet
   std::optional<DanceScore::Next> next = score_.TakeNext(jobs_.size(), Ready());
   if (!next) return;
   const int64_t from = next->inputs.segment.from;
   next->inputs.before = jobs_.empty() ? danced_ : jobs_.back()->StateBefore(from);
-  // A dance that waited for its client's messages is due from now on. Its old start time would let
-  // it overtake dances that waited for nobody.
+  // A dance that waited for its client's messages is due from now on. With its old start time it
+  // would overtake dances that did not wait.
   start_time_ = std::max(start_time_, PlaybackClock() - Seconds(from - first_frame_));
   auto job = std::make_shared<Job>(shared_from_this(), *std::move(next));
   try {
@@ -303,7 +305,7 @@ void DanceChain::SubmitNext() {
   } catch (const Error& error) {
     job->Fail(error);
   }
-  jobs_.push_back(std::move(job));  // its reports wait for mutex_
+  jobs_.push_back(std::move(job));  // its reports block on mutex_
 }
 
 }  // namespace choreo

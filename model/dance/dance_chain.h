@@ -22,25 +22,24 @@
 
 namespace choreo {
 
-/// The chain of transitions behind a DanceStream. It submits the score's transitions one after the
-/// other, each as soon as its start is known. It hands out frames once they are granted, their
-/// music has come and the sink takes them. Workers prepare and sample without its lock, and reports
-/// and the sink's calls are made without it. Thread-safe. Lock order: the chain's before the
-/// queue's and the audio feed's. Its jobs keep it alive.
+/// The chain of transitions behind a DanceStream. Submits the score's transitions one after
+/// another, each as soon as its start is known. Hands out frames once they are granted, their music
+/// has arrived and the sink accepts them. Workers prepare and sample without the chain's lock;
+/// reports and calls to the sink are also made without it. Thread-safe. Lock order: the chain's
+/// lock before those of the queue and the audio feed. The chain's jobs keep it alive.
 class DanceChain : public std::enable_shared_from_this<DanceChain> {
  public:
   /// The config must be valid.
   DanceChain(SampleQueue& queue, const ValidDance& config, std::shared_ptr<DanceSink> sink);
 
-  /// Posts what the sink must know before the first message.
+  /// Posts the events that precede the first message.
   void Begin(const ValidDance& config);
 
-  /// Applies a message, tells the sink of the events that it causes, and continues the dance from
-  /// there. If `change` throws, the exception passes through and the chain stays as it was. Does
-  /// nothing once the dance is over.
+  /// Applies a message, posts its events to the sink, and continues the dance. If `change` throws,
+  /// the exception propagates and the chain is unchanged. Does nothing once the dance is over.
   void Apply(const std::function<DanceEvents(DanceScore&)>& change);
 
-  // As in DanceStream.
+  // The functions below implement those of DanceStream.
   void PushAudio(std::span<const float> interleaved, int64_t first_sample);
   void EndOfAudio();
   void HalfClose();
@@ -48,42 +47,42 @@ class DanceChain : public std::enable_shared_from_this<DanceChain> {
   void Cancel() noexcept;
 
   /// Hands out a few frames and ends of transitions, and calls the sink. One thread at a time does
-  /// so for all others. True if there may be more.
+  /// this on behalf of all. Returns true if there may be more.
   bool HandOut();
 
   // For HandOver.
   HandOver<DanceChain>& hand_over() { return hand_over_; }
   bool Cancelled() const { return cancelled_; }
-  /// A job that hands out has failed.
+  /// Called when a job that hands out frames has failed.
   void OnFailure(const Error& failure) noexcept;
 
  private:
   class Job;
 
-  /// Continues the dance because there is more music.
+  /// Continues the dance after more music has arrived.
   void Continue() {
     Apply([](DanceScore&) { return DanceEvents(); });
   }
-  /// Whether the last call to the sink has been made or is under way.
+  /// Whether the last call to the sink has been made or is being made.
   bool over() const { return mailbox_.over(); }
   AudioFeed& Audio(const char* field) {
     if (audio_ == nullptr) throw InvalidArgument(field, "comes without config.audio_format");
     return *audio_;
   }
   void FinishAudio();  // requires pushing_
-  // Like Apply, for the dance's own changes; also after its end.
+  // Like Apply, for changes by the dance itself. Also works after its end.
   void React(const std::function<void()>& change) noexcept;
   // Hands out a few frames on this thread, which may be gRPC's; a worker hands out the rest.
   void HandOutHere();
-  // Reports a frame without the lock; `key` is set if the frame reaches it.
+  // Reports a frame without the lock. `key`: the key that the frame reaches, if any.
   void Report(const Job& job, int64_t frame, const std::optional<Key>& key);
 
   double Seconds(int64_t frames) const { return static_cast<double>(frames) / model_.fps; }
   int64_t Ready() const { return audio_ ? audio_->ready() : 0; }
 
-  // The functions below require mutex_.
-  // Takes what goes out next: a frame, the end of a transition, or that of the dance. Returns the
-  // function that reports it, to be called without the lock; null if nothing may go out.
+  // The functions below require mutex_. Takes the next item to hand out: a frame, the end of a
+  // transition, or the end of the dance. Returns a function that reports it, to be called without
+  // the lock, or null if nothing may be handed out.
   std::function<void()> TakeNext();
   std::function<void()> FinishTransition();
   void SubmitNext();
@@ -97,20 +96,20 @@ class DanceChain : public std::enable_shared_from_this<DanceChain> {
   std::atomic<bool> cancelled_ = false;
   std::atomic<bool> paused_ = false;
   Mailbox<DanceSink> mailbox_;
-  std::mutex pushing_;                      // of whoever pushes music; before all other locks
+  std::mutex pushing_;                      // held while pushing music; locked before all others
   const std::unique_ptr<AudioFeed> audio_;  // null for a dance without music
-  DanceReport report_;                      // of the thread that hands out, as is output_
+  DanceReport report_;                      // used by the thread that hands out
   OutputRate output_;
 
   std::mutex mutex_;   // guards the members below
-  double start_time_;  // of the playback; frames are due relative to it
+  double start_time_;  // start of playback, from which frames' deadlines count
   DanceScore score_;
-  // The first transitions of the timeline: the one being handed out, and the next. All but the last
-  // are sampled.
+  // The timeline's first transitions: the one being handed out, and the following ones. All but the
+  // last have been sampled.
   std::deque<std::shared_ptr<Job>> jobs_;
-  DancedState danced_;  // by the transitions that are over
-  int64_t next_frame_;  // the next to hand out
-  Pacer pacer_;         // of what is handed out
+  DancedState danced_;  // state after the finished transitions
+  int64_t next_frame_;  // the next frame to hand out
+  Pacer pacer_;         // paces handing out
   HandOver<DanceChain> hand_over_;
 };
 

@@ -14,7 +14,7 @@ namespace choreo {
 namespace {
 
 constexpr int kHeard = 12 * static_cast<int>(kModelFps);  // rows
-// A crowd of short transitions shares what was heard: it is tracked once a second.
+// Beats are tracked once a second, so that many short transitions share the result.
 constexpr int kTracked = static_cast<int>(kModelFps);
 static_assert(kHeard + kTracked <= kBeatMemory);
 
@@ -23,7 +23,7 @@ double HearEnergyAt(const AudioFeed& audio, int64_t frame) {
   return HearEnergy(audio.Sounds(frame, kDynamicsMemory));
 }
 
-// The energies of a song before a transition and in it; none if they are unknown.
+// The energies of a song before and in a transition; none if unknown.
 std::optional<EnergyShift> SongEnergy(std::span<const float> energies, const Segment& segment) {
   if (energies.empty()) return std::nullopt;
   return EnergyShift{MeanEnergy(energies, segment.from - kTypicalFrames, segment.from),
@@ -67,7 +67,7 @@ std::vector<Onset> OnsetsBefore(const AudioFeed& audio, int64_t row) {
 /// Thread-safe.
 class BeatMemory {
  public:
-  /// The beats in the rows before `row`, which must be ready: a function of their samples.
+  /// The beats in the rows before `row`, which must be ready. Depends only on their samples.
   HeardBeats Before(const AudioFeed& audio, int64_t row) {
     std::lock_guard lock(mutex_);
     if (row != until_) {
@@ -80,7 +80,7 @@ class BeatMemory {
 
  private:
   std::mutex mutex_;    // guards the members below
-  int64_t until_ = -1;  // the row before which heard_ ends
+  int64_t until_ = -1;  // end (exclusive) of the rows behind heard_
   HeardBeats heard_;
 };
 
@@ -108,7 +108,7 @@ void DanceMusic::ReplaceBeats(double begin, std::span<const double> seconds,
   const auto at = [&](double time) {
     return std::ranges::lower_bound(known, time, {}, &Beat::time_s);
   };
-  // A beat given a little earlier is the same as the first of these.
+  // A beat given slightly earlier is the same as the first of these.
   double step = BeatStep(seconds, 0);
   if (const auto before = at(begin); step == 0 && before - known.begin() > 1)
     step = (before - 1)->time_s - (before - 2)->time_s;
@@ -174,7 +174,7 @@ PlannedMusic DanceMusic::PlanFor(const Segment& segment, int64_t rows_end) {
 
 void DanceMusic::WatchForTurn(const Segment& segment) {
   last_ = next_ - 1;
-  // A model that hears music hears that of the transition itself.
+  // A model that hears gets the music of the transition itself.
   const bool listens = plan_.audio_ != nullptr && plan_.dynamics_ > 0 && !plan_.model_->hearing;
   if (!listens || segment.from < kLevelRows) return;
   level_ = HearLevel(plan_.audio_->Sounds(segment.from, kLevelRows), turns_);
@@ -219,7 +219,7 @@ TransitionMusic PlannedMusic::Hear() const {
 void PlannedMusic::AddPredicted(std::vector<Beat>* beats) const {
   const int64_t until = from_ - from_ % kTracked;
   const HeardBeats heard = heard_->Before(*audio_, until);
-  // The span from a beat before the transition to one after it.
+  // The span from the last beat before the transition to the first one after it.
   const double slowest_s = 60 / TempoLimits().slowest_bpm;
   const BeatsAhead ahead = PredictBeats(heard.track, Seconds(until), Seconds(to_) + slowest_s);
   if (!heard.Certain() || ahead.beats.empty()) return;

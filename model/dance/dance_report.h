@@ -17,34 +17,34 @@
 
 namespace choreo {
 
-/// Tells a dance's sink of an event.
+/// Posts an event to a dance's sink.
 inline void PostEvent(Mailbox<DanceSink>& mailbox, const DanceEvent& event) {
   mailbox.Post([event](DanceSink& sink) { sink.OnEvent(event); });
 }
 
-/// Where a dance continues with `frame`, but for what only streams know: its last beat and the keys
-/// that it has reached. `hears_beats`: whether it detects beats in the music.
+/// The continuation of a dance at `frame`, without the fields that only streams know: the last beat
+/// and the reached keys. `hears_beats`: whether the dance detects beats in the music.
 Continuation ContinuationAt(int64_t frame, const DancedState& danced, const ModelInfo& model,
                             const DanceStart& config, bool hears_beats);
 
-/// Tells the sink of a dance about its frames: their beats and keys, the continuations between
-/// them, the summary. Not thread-safe.
+/// Reports to a dance's sink what goes with its frames: beats, keys, continuations and the summary.
+/// Not thread-safe.
 class DanceReport {
  public:
-  /// The mailbox must outlive it, as must model and music. `audio`: null without music.
+  /// `audio`: null without music. Model, audio and mailbox must outlive this object.
   DanceReport(const ModelInfo& model, const ValidDance& config, const AudioFeed* audio,
               Mailbox<DanceSink>& mailbox);
 
   /// Starts a transition.
   void Begin(const Segment& segment, const std::vector<Warning>& warnings,
              const std::vector<Beat>& beats);
-  /// The next frame, whose number is `number`; the sink has it.
+  /// Adds the next frame, with number `number`. The sink has already received it.
   void Add(int64_t number, const DanceFrame& frame);
-  /// That frame reaches this key.
+  /// Records that the last added frame reaches this key.
   void Reach(const Key& key, KeyReached reached);
-  /// A transition is over, and the dance continues with `frame`.
+  /// Ends a transition. The dance continues with `frame`.
   void End(int64_t frame, const DancedState& danced);
-  /// The dance ended before `frame`; these were its controls.
+  /// Reports the summary of a dance that ended before `frame` and had these controls.
   void Summarise(int64_t frame, const ControlTrack& controls);
 
  private:

@@ -56,7 +56,7 @@ DanceEvents NoteChanges(const std::vector<ControlChange>& changes, int64_t first
   DanceEvents events;
   for (const auto& [label, changed] : changes) {
     timeline->NoteChange(changed.first, changed.last);
-    // What lies before the first frame was danced before the resume: it is not late.
+    // Frames before the first one were danced before the resume, so this is not late.
     if (changed.last < from && changed.last >= first_frame)
       events.push_back(ControlsTooLate(label, changed.last, from));
   }
@@ -109,7 +109,7 @@ DanceEvents DanceScore::EndOfAudio() {
   if (audio_->silent()) events.push_back(MusicSilent(end - 1, audio_->seconds()));
   if (audio_->cancels()) events.push_back(ChannelsCancel(end - 1));
   for (DanceEvent& behind : KeysBehindMusic()) events.push_back(std::move(behind));
-  // Clients round a song's length to frames, up or down.
+  // Tolerates clients that round a song's length to frames, up or down.
   if (end_frame_ && *end_frame_ > end + 1) {
     events.push_back(DanceBehindMusic(end, static_cast<double>(*end_frame_ - end) / model_.fps));
   }
@@ -133,8 +133,7 @@ DanceEvents DanceScore::SetMusic(const MusicAnalysis& music) {
   return {};
 }
 
-// The answer to a key with these hands that came too late: it is rejected, or was reached before
-// the dance was resumed.
+// The answer to a late key with these hands: rejected, or reached before the dance was resumed.
 DanceEvent DanceScore::AnswerLate(const KeyRejected& rejection, std::optional<HandPose> hands) {
   const auto reached = std::ranges::find_if(reached_before_, [&](const KeyReached& key) {
     return key.id == rejection.id && key.frame == rejection.frame;
@@ -170,8 +169,8 @@ std::optional<DanceScore::Next> DanceScore::TakeNext(size_t planned, int64_t rea
     return std::nullopt;
   int64_t rows_end = segment->from;
   if (model_.hearing) rows_end = std::min(segment->to, end_frame_.value_or(segment->to));
-  // Beats of the whole music are set before its first row is ready, so a transition that waits for
-  // one row knows them.
+  // Waits for at least one row, because the beats of the whole music are set before its first row
+  // is ready.
   if (audio_ != nullptr && ready < std::max(rows_end, first_frame_ + 1)) return std::nullopt;
   recurrence_.Begin(segment->from);
   return Next{{.controls = controls_,

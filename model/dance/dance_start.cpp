@@ -46,7 +46,7 @@ void ValidateAudioStart(const ModelInfo& model, const DanceStart::Audio& audio,
   }
 }
 
-// Throws what the constructors of ValidDance and ValidGroup do.
+// Throws what the constructors of ValidDance and ValidGroup throw.
 void CheckStart(const DanceStart& start, const ModelInfo& model) {
   if (start.temperature) ValidateTemperature(*start.temperature, "config.temperature");
   ValidateShare(start.Dynamics(), "config.music_dynamics");

@@ -12,19 +12,19 @@
 
 namespace choreo {
 
-/// A dance in progress. It is a function of the config, the samples, and the order of the messages:
-/// SetKey, RemoveKey, SetControls, GiveBeats, GivePassages, GenerateUntil, KeysComplete and
-/// EndOfAudio. A new stream with the last continuation, the same config and the same messages,
-/// except rejected ones, continues bit for bit. Its audio starts at ResumeSample, and frames after
-/// that continuation are sent again.
+/// A dance in progress. It is a function of the config, the samples, and the order of these
+/// messages: SetKey, RemoveKey, SetControls, GiveBeats, GivePassages, GenerateUntil, KeysComplete
+/// and EndOfAudio. A new stream with the last continuation, the same config and the same messages,
+/// except rejected ones, continues bit for bit. Its audio starts at ResumeSample. Frames after the
+/// continuation are sent again.
 ///
-/// A message that throws leaves the stream as it was; its error names the field by its path in the
-/// API's message, such as "keyframe.pose.rotations[16]". Messages after the sink's last call are
-/// ignored. Thread-safe. The destructor cancels. The queue must outlive the sink's last call and
+/// A message that throws leaves the stream unchanged. Its error's field is the path in the API's
+/// message, such as "keyframe.pose.rotations[16]". Messages after the sink's last call are ignored.
+/// Thread-safe. The destructor cancels the dance. The queue must outlive the sink's last call and
 /// all jobs.
 class DanceStream {
  public:
-  /// `config`: for the queue's model.
+  /// `config`: must have been checked against the queue's model.
   DanceStream(SampleQueue& queue, const ValidDance& config, std::shared_ptr<DanceSink> sink)
       : chain_(std::make_shared<DanceChain>(queue, config, std::move(sink))) {
     chain_->Begin(config);
@@ -33,22 +33,22 @@ class DanceStream {
   DanceStream(const DanceStream&) = delete;
   DanceStream& operator=(const DanceStream&) = delete;
 
-  /// Interleaved samples; `first_sample` (absolute, counted in sample frames) must be the next one:
-  /// Error(kOutOfRange) for a gap or an overlap, naming the sample expected.
-  /// Error(kInvalidArgument) for bad samples, beyond kMaxAudioSeconds, without DanceConfig::audio.
-  /// Error(kFailedPrecondition) after EndOfAudio.
+  /// Adds interleaved samples. `first_sample` (absolute, in sample frames) must be the next one.
+  /// Throws Error(kOutOfRange), naming the expected sample, for a gap or an overlap. Throws
+  /// Error(kInvalidArgument) for bad samples, beyond kMaxAudioSeconds, and without
+  /// DanceConfig::audio. Throws Error(kFailedPrecondition) after EndOfAudio.
   void PushAudio(std::span<const float> interleaved, int64_t first_sample) {
     chain_->PushAudio(interleaved, first_sample);
   }
-  /// Throws Error(kInvalidArgument) if no sample came at all.
+  /// Ends the audio. Throws Error(kInvalidArgument) if there was no sample at all.
   void EndOfAudio() { chain_->EndOfAudio(); }
-  /// Sets what is known about the whole music; DanceConfig has precedence. If it has no beats, the
-  /// dance detects none. Call before the first sample.
+  /// Sets what is known about the whole music. Values in DanceConfig have precedence. If `music`
+  /// has no beats, the dance detects none. Call before the first sample.
   void SetMusic(const MusicAnalysis& music) {
     chain_->Apply([&](DanceScore& score) { return score.SetMusic(music); });
   }
-  /// Warns that the music's file is damaged or ends early. `notes`: DecodeMono's; `seconds`: what
-  /// could be read.
+  /// Warns that the music's file is damaged or ends early. `notes`: DecodeMono's notes. `seconds`:
+  /// the readable part's length.
   void NoteMusicDamaged(const std::vector<std::string>& notes, double seconds) {
     chain_->Apply([&](DanceScore& score) { return score.NoteMusicDamaged(notes, seconds); });
   }
@@ -58,7 +58,7 @@ class DanceStream {
   void SetKey(const Key& key, const KeyMoment& when) {
     chain_->Apply([&](DanceScore& score) { return score.SetKey(key, when); });
   }
-  /// Rejects a key that cannot be used: a KeyRejected event names the wrong field and says why.
+  /// Rejects an unusable key with a KeyRejected event, which names the field and the reason.
   void RejectKey(const std::string& id, const std::optional<KeyMoment>& when,
                  const std::string& field, const std::string& reason) {
     chain_->Apply([&](DanceScore& score) { return score.RejectKey(id, when, field, reason); });
@@ -66,38 +66,41 @@ class DanceStream {
   void RemoveKey(const std::string& id) {
     chain_->Apply([&](DanceScore& score) { return score.RemoveKey(id); });
   }
-  /// Sets controls (see ControlTrack) from the first frame that is not frozen. None may come after
-  /// KeysComplete, which freezes all.
+  /// Sets controls (see ControlTrack) from the first frame that is not frozen. Not allowed after
+  /// KeysComplete, which freezes all frames.
   void SetControls(const ControlRequest& request) {
     chain_->Apply([&](DanceScore& score) { return score.SetControls(request); });
   }
-  /// Gives beats, seconds, at least one, valid by CheckBeats and CheckDownbeats (see
-  /// DanceMusic::GiveBeats). Those in frozen frames are dropped with a Warning. None may come after
+  /// Sets beats (see DanceMusic::GiveBeats), in seconds: at least one, checked by CheckBeats and
+  /// CheckDownbeats. Beats in frozen frames are dropped with a Warning. Not allowed after
   /// KeysComplete.
   void GiveBeats(const std::vector<double>& seconds, const std::vector<double>& downbeats = {},
                  std::optional<double> confidence = {}) {
     chain_->Apply(
         [&](DanceScore& score) { return score.GiveBeats(seconds, downbeats, confidence); });
   }
-  /// Takes at least one passage, valid by CheckPassages. From the first on they replace known ones,
-  /// for transitions that begin after the frozen frames. None may come after KeysComplete.
+  /// Sets passages: at least one, checked by CheckPassages. They replace known passages from the
+  /// first of them on, for transitions that begin after the frozen frames. Not allowed after
+  /// KeysComplete.
   void GivePassages(const std::vector<Passage>& passages) {
     chain_->Apply([&](DanceScore& score) { return score.GivePassages(passages); });
   }
   void GenerateUntil(int64_t frame) {
     chain_->Apply([&](DanceScore& score) { return score.GenerateUntil(frame); });
   }
-  /// Throws Error(kInvalidArgument) if the dance then has no end: no key, no music, no end_frame.
+  /// Ends the keys. Throws Error(kInvalidArgument) if the dance would have no end: no key, no
+  /// music, no end_frame.
   void KeysComplete() { chain_->Apply(&DanceScore::KeysComplete); }
 
-  /// A client's half-close: EndOfAudio and KeysComplete, unless they have come already.
+  /// Handles a client's half-close: does EndOfAudio and KeysComplete unless already done.
   void HalfClose() { chain_->HalfClose(); }
 
-  /// Back-pressure: a paused stream hands out no frames, except one under way. Never changes the
-  /// dance.
+  /// Applies back-pressure: a paused stream hands out no frames, except one in progress. Never
+  /// changes the dance.
   void SetPaused(bool paused) { chain_->SetPaused(paused); }
 
-  /// The sink gets OnError(kCancelled), unless its last call has come. Idempotent.
+  /// Cancels the dance. The sink gets OnError(kCancelled) unless it has had its last call.
+  /// Idempotent.
   void Cancel() noexcept { chain_->Cancel(); }
 
  private:

@@ -15,13 +15,13 @@
 
 namespace choreo {
 
-/// A control without a class of its own: its request has `frames` and `values`, which are
-/// [rows, channels] and interpolated between rows. Later requests override earlier ones.
+/// Tracks a control whose request has `frames` and `values`. `values`, [rows, channels], are
+/// interpolated between rows. Later requests override earlier ones.
 template <typename Request>
 class HeldTrack {
  public:
-  /// Throws Error(kInvalidArgument) below `field` for frames that do not ascend and for values that
-  /// are not finite or do not fit. Controls::Check knows the least ones.
+  /// Throws Error(kInvalidArgument) below `field` for frames that do not ascend, for values that
+  /// are not finite, and for a wrong number of values. Controls::Check checks the lower limits.
   static void Validate(const Request& request, const ModelInfo& /*model*/,
                        const std::string& field) {
     ValidateFrames(request.frames, field + ".frames");
@@ -31,7 +31,7 @@ class HeldTrack {
         throw InvalidArgument(At(field + ".values", i), "is not finite");
     }
   }
-  /// Changes all frames: outside the rows the nearest one holds.
+  /// Changes all frames; before the first and after the last row, the nearest one applies.
   ChangedFrames Set(const Request& request, int64_t from) {
     requests_.push_back({from, std::make_shared<Request>(request)});
     return {};

@@ -12,9 +12,9 @@
 
 namespace choreo {
 
-/// Calls a listener: one call at a time, in the order of Post, without a lock. The first thread to
-/// call Deliver makes the calls; other threads do not wait. So a listener may call its caller back.
-/// Drops posts after the last call. Thread-safe.
+/// Queues calls to a listener and makes them one at a time, in the order of Post, without a lock.
+/// The first thread in Deliver makes the calls, and other threads do not wait, so the listener may
+/// call its caller back. Drops posts after the last call. Thread-safe.
 template <typename Listener>
 class Mailbox {
  public:
@@ -24,17 +24,18 @@ class Mailbox {
 
   void Post(Call call) { Add(std::move(call), /*last=*/false); }
   void PostLast(Call call) { Add(std::move(call), /*last=*/true); }
-  /// OnError is the last call.
+  /// Posts OnError as the last call.
   void PostError(const Error& error) {
     PostLast([error](Listener& listener) { listener.OnError(error); });
   }
-  /// Whether the last call is posted.
+  /// Whether the last call has been posted.
   bool over() const {
     std::lock_guard lock(mutex_);
     return over_;
   }
 
-  /// A call's exception passes through; the others wait for the next Deliver.
+  /// Makes the waiting calls. If one throws, the exception propagates and the others wait for the
+  /// next Deliver.
   void Deliver() {
     pacer_.Run(
         mutex_, std::numeric_limits<int>::max(), [this] { return TakeNext(); },
@@ -43,8 +44,8 @@ class Mailbox {
         });
   }
 
-  /// Drops waiting calls; OnError is the last call. Call it when memory is exhausted: it allocates
-  /// nothing. If the listener does and fails, the call is lost.
+  /// Drops waiting calls and makes OnError the last call. For use when memory is exhausted:
+  /// allocates nothing. If the listener's own allocation fails, the call is lost.
   void GiveUp() noexcept {
     {
       std::lock_guard lock(mutex_);

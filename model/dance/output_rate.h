@@ -15,16 +15,16 @@ struct OutputFrames {
   std::vector<Contacts> contacts;
 };
 
-/// Resamples a dance in progress. A frame between two model frames waits for the later one and
-/// interpolates: the root linearly, joints along the shortest arcs. At the model's rate frames pass
-/// unchanged. Not thread-safe.
+/// Resamples a dance in progress. An output frame between two model frames waits for the later one
+/// and is interpolated: the root linearly, joints along the shortest arcs. At the model's rate
+/// frames are unchanged. Not thread-safe.
 class OutputRate {
  public:
-  /// `first_frame`: the model's first frame. `before`: the pose directly before it, when a dance
-  /// resumes; output frames between the two then belong to this part.
+  /// `first_frame`: the model's first frame. `before`: for a resumed dance, the pose directly
+  /// before it; output frames between the two are then included.
   OutputRate(double model_fps, double output_fps, int64_t first_frame, std::optional<Pose> before);
 
-  /// The output frames, zero or more, that the model's next frame completes.
+  /// Adds the model's next frame. Returns the output frames, zero or more, that it completes.
   OutputFrames Push(const DanceFrame& frame);
 
  private:

@@ -9,17 +9,17 @@
 
 namespace choreo {
 
-/// Frames handed out before other dances get a turn, or gRPC its thread back.
+/// The most frames handed out before other dances get a turn or gRPC gets its thread back.
 inline constexpr int kFramesASlice = 16;
 
-/// Takes steps one at a time. The first thread that asks takes them; others that ask meanwhile do
-/// not wait: it looks again for them. Guarded by its owner's mutex.
+/// Takes steps one at a time. The first thread in Run takes them. Other threads return at once, and
+/// the first one checks again for their steps. Guarded by its owner's mutex.
 class Pacer {
  public:
-  /// Takes at most `most` steps. `next` is called under `mutex` and gives the next step, false if
-  /// there is none now. `take` gets each, also the last false one, without the mutex: it may call
-  /// the owner back. Returns whether more may be left. An exception of `take` passes through; what
-  /// is left waits for the next call.
+  /// Takes at most `most` steps. `next`, called under `mutex`, returns the next step, or a false
+  /// value if there is none. `take`, called without `mutex`, gets each step, including the final
+  /// false value, and may call the owner back. Returns whether more may be left. If `take` throws,
+  /// the exception propagates and remaining steps wait for the next call.
   bool Run(std::mutex& mutex, int most, const auto& next, const auto& take) {
     std::unique_lock lock(mutex);
     looks_again_ = true;
@@ -45,12 +45,13 @@ class Pacer {
   bool runs_ = false, looks_again_ = false;
 };
 
-/// A worker calls `Owner::HandOut` until nothing is left. There is one job at a time. Thread-safe.
+/// Lets a worker call `Owner::HandOut` until nothing is left. At most one job waits at a time.
+/// Thread-safe.
 template <class Owner>
 class HandOver {
  public:
-  /// Calls `submit` with a job that hands out, unless one waits already. If the queue refuses it,
-  /// this thread hands out the rest.
+  /// Calls `submit` with a job that hands out, unless one is already waiting. If the queue refuses
+  /// the job, this thread hands out the rest.
   void ToWorker(std::shared_ptr<Owner> owner, double deadline, const auto& submit) {
     if (is_asked_.exchange(true)) return;
     Owner& here = *owner;
@@ -71,7 +72,7 @@ class HandOver {
 
     bool Continue(Sampler& /*sampler*/) override {
       std::atomic<bool>& is_asked = owner_->hand_over().is_asked_;
-      is_asked = false;  // from here on whoever leaves something may ask
+      is_asked = false;  // from here on, other threads may request another job
       return owner_->HandOut() && !is_asked.exchange(true);
     }
     void OnDone(const Error* failure) noexcept override {

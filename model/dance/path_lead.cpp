@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kDetourSpeed = 1.0;  // m/s, at its fastest
 constexpr double kMinDetourSeconds = 0.5;
-constexpr double kPushOff = 10;  // m/s^2: people push off with little more than their weight
+constexpr double kPushOff = 10;  // m/s^2; people push off with little more than their weight
 
 double Smooth(double s) { return SmoothStep(std::clamp(s, 0.0, 1.0)); }
 
@@ -42,15 +42,15 @@ class Leader {
   PathPoint Led(const PathPoint& point) const {
     return {point.position.cwiseProduct(request_.axes), point.velocity.cwiseProduct(request_.axes)};
   }
-  /// The frame whose place the curve gives in this one: a later one while it comes to rest, as a
-  /// pose that is hit gently does.
+  /// The frame of the curve whose position is used in this frame. It is a later one while the path
+  /// comes to rest, with the timing of a gently hit pose.
   double Time(int frame) const {
     const double window = std::min(kHitSeconds * request_.fps, static_cast<double>(frames_));
     const double since = frame - (frames_ - 1 - window);
     if (!request_.rests || since <= 0) return frame;
     return frame - since + window * HitTime(since / window, 0);
   }
-  /// The point of `of_frame`'s curve at a frame.
+  /// The point at a frame on the curve of `of_frame`.
   PathPoint Asked(int of_frame, int frame) const {
     const double time = Time(frame);
     PathPoint point = Led(Curve(of_frame)->At(static_cast<double>(request_.first_frame) + time));
@@ -104,7 +104,7 @@ class Leader {
     here_ = point;
   }
 
-  /// The largest acceleration on the cubic from here, m/s^2; it is at one of the ends.
+  /// The largest acceleration on the cubic from here, m/s^2, which is at one of its ends.
   double PushOff(const PathPoint& goal, double duration) const {
     const Eigen::Vector3d leg = 6 * (goal.position - here_.position);
     const Eigen::Vector3d leave = 2 * duration * here_.velocity;
@@ -114,8 +114,8 @@ class Leader {
     return largest * request_.fps * request_.fps / (duration * duration);
   }
 
-  /// Handles an end too soon after the last curve: extends that straight and bends it to the end.
-  /// An end on the straight line needs no bending.
+  /// Handles an end too soon after the last curve: extends the curve straight and bends it to the
+  /// end. An end on the straight line needs no bending.
   void GoOn(int from, const PathPoint& leaving) {
     if (!request_.end_wins) {
       lead_.path.rightCols(frames_ - from).colwise() = leaving.position;
@@ -141,7 +141,7 @@ class Leader {
 
   const LeadRequest& request_;
   const int frames_;
-  PathPoint here_;  // at the frame before the next
+  PathPoint here_;  // in the last computed frame
   Lead lead_;
 };
 

@@ -9,14 +9,14 @@
 namespace choreo {
 namespace {
 
-constexpr double kKeyTolerance = 0.05;    // metres that a key may be off the path without a warning
-constexpr double kDancerTolerance = 0.5;  // the same for the dancer where a path begins
+constexpr double kKeyTolerance = 0.05;    // metres between key and path without a warning
+constexpr double kDancerTolerance = 0.5;  // metres from dancer to path's start, likewise
 
 bool HasHeights(const PathCurve* curve) { return curve != nullptr && curve->has_heights(); }
 
 }  // namespace
 
-// Finds the curve for a transition from `first_frame` on, and for the frame right before it.
+// Finds the curve for a transition from `first_frame` on, including the frame directly before it.
 const PathCurve* PathTrack::CurveAt(int64_t frame, int64_t first_frame) const {
   const int64_t known = std::min(frame, first_frame);
   const auto said = std::find_if(paths_.rbegin(), paths_.rend(), [&](const auto& path) {
@@ -104,7 +104,7 @@ void PathTrack::WarnOfDistance(const LeadRequest& request, std::vector<Warning>*
   const PathCurve* before = CurveAt(request.first_frame - 1, request.first_frame);
   for (size_t i = 0; i < request.curves.size(); before = request.curves[i++]) {
     const PathCurve* curve = request.curves[i];
-    // Frames without a path lead to the next path.
+    // In frames without a path, the root moves to the next path.
     if (curve == nullptr || curve == before || (i > 0 && before == nullptr)) continue;
     const int64_t frame = request.first_frame + static_cast<int64_t>(i);
     const Eigen::Vector3d dancer = i == 0 ? request.start.position : before->At(frame - 1).position;

@@ -14,12 +14,13 @@ namespace choreo {
 
 struct LeadRequest;
 
-/// The root paths of one dance. A later one overrides earlier ones for the frames it covers. A path
-/// is the curve of PathCurve, bent smoothly to the dancer at a transition's start and to the key at
-/// its end (LeadPath); the key wins, and a warning gives the distance. At keys that are hit it
-/// comes to rest; while a pose is held (IsHold) it waits. Where no path sets the height, the root
-/// is led to the key's height: the one it states, or the one at which its pose stands on the floor.
-/// A path with heights overrides the latter. Transitions that no path covers are left to the model.
+/// The root paths of one dance. A later path overrides earlier ones for the frames that it covers.
+/// A path is a PathCurve, bent smoothly to the dancer at a transition's start and to the key at its
+/// end (LeadPath). If both cannot be met, the key has precedence, and a warning states the
+/// distance. The path comes to rest at keys with a hit, and waits while a pose is held (IsHold).
+/// Where no path sets the height, the root is guided to the key's height: the stated one, or the
+/// height at which the pose stands on the floor. A path with heights overrides the latter.
+/// Transitions without a path are left to the model.
 class PathTrack {
  public:
   static void Validate(const RootPath& path, const ModelInfo& /*model*/, const std::string& field) {
@@ -31,13 +32,13 @@ class PathTrack {
     return {path.frames.front(), path.frames.back()};
   }
 
-  /// As ControlTrack::Stance.
+  /// Implements ControlTrack::Stance.
   Pose Stance(const Skeleton& skeleton, int64_t first_frame,
               const std::optional<Target>& key_on_it) const;
   /// Fills in the curve of the spec's controls.
   void Fill(const ModelInfo& model, const std::string& key_id, TransitionSpec* spec,
             ControlCurve* curve, std::vector<Warning>* warnings) const;
-  /// A warning if the last path set begins at `end` or later.
+  /// A warning if the path set last begins at `end` or later.
   std::optional<Warning> BehindEnd(int64_t end) const;
 
  private:

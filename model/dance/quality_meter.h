@@ -15,21 +15,21 @@
 
 namespace choreo {
 
-/// Gathers a QualityReport frame by frame, keeping a few numbers per frame. Frames come in order.
-/// Not thread-safe.
+/// Computes a QualityReport from frames added in order. Stores a few numbers per frame. Not
+/// thread-safe.
 class QualityMeter {
  public:
-  /// `reached`: keys before the first frame.
+  /// `reached`: keys reached before the first frame.
   QualityMeter(const Skeleton& skeleton, double fps, int64_t first_frame,
                std::vector<KeyReached> reached = {});
 
   void Add(const DanceFrame& frame);
-  /// The key at the last frame added.
+  /// Adds the key reached at the last added frame.
   void AddKey(KeyReached key);
-  /// All keys so far, without the accelerations around them.
+  /// All keys so far, without the accelerations around each.
   const std::vector<KeyReached>& keys() const { return keys_; }
-  /// `music_beats`: seconds, ascending; empty: no beat figures. Those outside the dance do not
-  /// count.
+  /// The report on all frames so far. `music_beats`: seconds, ascending; if empty, the report has
+  /// no beat figures. Beats outside the dance do not count.
   QualityReport Report(std::span<const double> music_beats = {}) const;
 
  private:
@@ -40,19 +40,19 @@ class QualityMeter {
   double fps_;
   int64_t first_frame_;
   std::vector<KeyReached> keys_;
-  std::optional<double> log_likelihood_sum_ = 0;  // none once a frame had none
+  std::optional<double> log_likelihood_sum_ = 0;  // none after a frame without a likelihood
   int64_t skating_steps_ = 0;
   std::optional<SupportMeter> support_;
   std::deque<Eigen::Matrix3Xd> last_positions_;  // [3, joints] of the last two frames
   std::vector<float> speed_;         // mean joint speed of step i (frame i -> i + 1), m/s
   std::vector<float> acceleration_;  // largest joint acceleration at frame i + 1, m/s^2
   int64_t frames_ = 0;
-  std::optional<BodyPartWeights> weights_;  // once a frame has requested speeds
+  std::optional<BodyPartWeights> weights_;  // set once a frame has requested speeds
   std::array<PartSpeed, kBodyParts> speed_sums_ = {};
   int64_t speed_frames_ = 0;
 };
 
-/// Measures a whole motion (for evaluation), without contacts, likelihood and beats.
+/// Measures a whole motion, for evaluation, without contacts, likelihood and beats.
 QualityReport MeasureMotion(const Skeleton& skeleton, const Motion& motion);
 
 }  // namespace choreo

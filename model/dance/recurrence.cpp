@@ -102,7 +102,7 @@ std::vector<int64_t> CutsOf(std::span<const Passage> passages, double fps) {
     stretches.push_back({from, to, lag});
     cuts.insert({from - lag, to - lag, from, to});
   }
-  // To the first originals, and from them to all repetitions.
+  // Copies cuts to the first originals, and from them to all repetitions.
   for (const auto& [from, to, lag] : std::views::reverse(stretches)) {
     for (auto cut = cuts.find(to); *cut > from; --cut) cuts.insert(*cut - lag);
   }

@@ -68,7 +68,7 @@ PathCurve::PathCurve(const RootPath& path)
     return;
   }
   for (size_t point = 0; point <= end; ++point) {
-    // The first of the parabola's two legs; at an end, the neighbour's parabola.
+    // The first of the parabola's two legs. End points use their neighbour's parabola.
     const size_t leg = std::clamp<size_t>(point, 1, end - 1) - 1;
     const double d0 = duration(leg), d1 = duration(leg + 1);
     const Eigen::Vector3d bend = (slope(leg + 1) - slope(leg)) / (d0 + d1);

@@ -9,7 +9,7 @@
 
 namespace choreo {
 
-/// What holds for transitions that begin at `from` or later. Copies share it.
+/// A value that applies to transitions that begin at `from` or later. Copies share it.
 template <typename What>
 struct SaidSince {
   int64_t from;
@@ -22,9 +22,9 @@ struct ChangedFrames {
   int64_t last = std::numeric_limits<int64_t>::max();
 };
 
-/// Where a frame lies among the rows of a control, which ascend: the row at or before it, and how
-/// far it is on the way to the next one, 0 to 1. Outside the rows the nearest one holds. No frames:
-/// one row for all.
+/// A frame's place among a control's rows, which ascend: the row at or before it, and the share of
+/// the way to the next row, 0 to 1. Before the first and after the last row, the nearest one
+/// applies. Without frames there is one row for all.
 struct RowPlace {
   size_t row = 0;
   float share = 0;

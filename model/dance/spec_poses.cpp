@@ -8,7 +8,7 @@
 namespace choreo {
 namespace {
 
-// Less time than this does not suffice to dance away from a pose and back.
+// The longest time that is too short to dance away from a pose and back.
 constexpr double kHoldSeconds = 0.4;
 
 // Whether a key is the dancer's present pose.
@@ -89,7 +89,7 @@ std::optional<RequiredSpeed> RequiredSpeedOf(const TransitionSpec& spec, double 
   const Target& target = *spec.target;
   const double seconds = spec.frames / fps;
   RequiredSpeed speed;
-  // The key did not ask for a position that came from the path, so its error does not count here.
+  // The path, not the key, requested this position, so its error does not count here.
   if (target.mask.root_position && !spec.controls[kRootPath].IsGiven()) {
     speed.root_m_per_s = (target.pose.root_position - from.root_position).norm() / seconds;
   }

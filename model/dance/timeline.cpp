@@ -28,7 +28,7 @@ double FiniteSeconds(double seconds, const std::string& field) {
   return seconds;
 }
 
-/// The field of a keyframe message that gives its moment, for errors.
+/// The field of a keyframe message that states its moment, for errors.
 std::string PathOf(const KeyMoment& when, const std::string& field) {
   static constexpr const char* kMembers[] = {".frame", ".time", ".interval_after_previous"};
   return field + kMembers[when.index()];
@@ -97,7 +97,7 @@ KeyRejected Timeline::Reject(const std::string& id, int64_t frame, KeyRejected::
   return {id, frame, EarliestFrame(), std::move(reason), code};
 }
 
-// Explains to clients that edit keys without GenerateUntil why frames are frozen.
+// Explains frozen frames to clients that edit keys without GenerateUntil.
 std::string Timeline::WhyFrozen() const {
   return explicit_grants_ ? "" : ": without generate_until each key freezes what lies before it";
 }
@@ -162,7 +162,7 @@ KeyRejected Timeline::RejectInvalid(const std::string& id, const std::optional<K
   int64_t frame = -1;
   try {
     if (when) frame = Resolve(*when, "");
-  } catch (const Error&) {  // the moment is what cannot be used
+  } catch (const Error&) {  // the moment itself is invalid
   }
   size_t length = std::min(id.size(), kMaxIdLength);
   while (length < id.size() && (static_cast<unsigned char>(id[length]) & 0xc0) == 0x80) --length;
@@ -206,7 +206,7 @@ void Timeline::GenerateUntil(int64_t frame) {
                               Frames(kMaxDanceFrames) + "]: it may only grow");
   }
   granted_ = frame;
-  // Everything is granted; while the music's end is unknown, no last transition can be planned.
+  // Everything is granted. While the music's end is unknown, the last transition cannot be planned.
   if (complete_) return;
   explicit_grants_ = true;
   Grant(frame);
@@ -247,7 +247,7 @@ void Timeline::Grant(int64_t frame) {
 void Timeline::Record(int64_t granted) {
   Granted now{granted, KeyFrom(granted), std::exchange(changed_from_, kNever)};
   if (!grants_.empty()) {
-    // Clients grant many times without a change: such a grant only extends the one before.
+    // Clients often grant without a change. Such a grant only extends the previous one.
     Granted& last = grants_.back();
     const bool is_quiet = last.changed_from == kNever && now.changed_from == kNever;
     if (is_quiet && AreEqual(last.next, now.next) && AreEqual(last.next, KeyFrom(last.to))) {
@@ -263,7 +263,8 @@ std::optional<Key> Timeline::KeyFrom(int64_t frame) const {
   return key == keys_.end() ? std::nullopt : std::optional(key->second);
 }
 
-// Plans as known when `known` was granted: earlier keys are frozen since then, later ones are not.
+// Plans with the keys known when `known` was granted. Earlier keys have been frozen since then;
+// later ones have not.
 Segment Timeline::SegmentFrom(int64_t frame, const Granted& known) const {
   const auto frozen = keys_.lower_bound(frame);
   const bool is_frozen = frozen != keys_.end() && frozen->first < known.to;
@@ -274,7 +275,7 @@ Segment Timeline::SegmentFrom(int64_t frame, const Granted& known) const {
   const bool is_reached = next && *next + 1 == to;
   if (!is_reached) {
     const auto cut = std::ranges::lower_bound(cuts_, frame + std::lround(kMinCut_s * options_.fps));
-    // The rest before the key is then at least half the typical length.
+    // The remaining transition before the key is then at least half the typical length.
     if (cut != cuts_.end() && *cut <= to + (to - frame) / 2 &&
         *cut - frame <= options_.max_transition_frames)
       to = *cut;
@@ -295,7 +296,7 @@ void Timeline::Settle(Plan* plan) const {
     Segment again = SegmentFrom(segment.from, *grant);
     const bool is_same =
         AreDancedAlike(segment.key, again.key) && AreDancedAlike(segment.later, again.later);
-    if (is_same) segment.key = std::move(again.key);  // its hands may be new
+    if (is_same) segment.key = std::move(again.key);  // its hands may have changed
     if (!is_same || grant->changed_from < segment.to) segment.stop = plan->settled;
     plan->settled = grant->to;
   }

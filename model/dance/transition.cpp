@@ -13,9 +13,9 @@ namespace choreo {
 namespace {
 
 constexpr uint32_t kMaxTransitionRetakes = 4;
-constexpr std::ptrdiff_t kFootworkFrames = 300;  // that footwork processes in one slice, at most
+constexpr std::ptrdiff_t kFootworkFrames = 300;  // footwork's largest part in one slice
 
-// The last `count` poses of `before` and then the frames, of which it takes the pose.
+// The last `count` poses of `before` followed by the frames' poses.
 template <typename Frames, typename PoseOf>
 std::vector<Pose> LastPoses(size_t count, const std::vector<Pose>& before, const Frames& frames,
                             PoseOf pose_of) {
@@ -32,7 +32,8 @@ TransitionSpec WithHistory(const ModelInfo& model, TransitionSpec spec) {
   return spec;
 }
 
-// Warns of the key's faults, except those that the pose before it has, as when a pose is held.
+// Warns about the key's faults, except those that the preceding pose already has, as when a pose is
+// held.
 void WarnOfPose(const Skeleton& skeleton, const TransitionSpec& spec, const std::string& key_id,
                 std::vector<Warning>* warnings) {
   const PoseMask& mask = spec.target->mask;
@@ -119,7 +120,7 @@ void TransitionRun::MoveToCanonicalFrame(TransitionSpec& spec) {
     spec.after = spec.target->pose;  // at rest
 }
 
-// Whether another sample may be slower, as the straight way to the key is slow enough.
+// Whether another sample may be slower, because the direct way to the key is slow enough.
 bool TransitionRun::MayBeRetaken() const {
   if (held_ || !spec_->footwork || model_->deterministic || spec_->temperature == 0) return false;
   if (!spec_->target) return true;
@@ -129,7 +130,8 @@ bool TransitionRun::MayBeRetaken() const {
                      model_->fps / spec_->frames) <= 1;
 }
 
-// Above 1 it moves faster than bodies do.
+// The largest ratio of a joint's speed to its limit. Above 1 the motion is faster than human
+// bodies.
 double TransitionRun::Strain() const {
   return SpeedExcess(model_->skeleton, spec_->history.back(), plan_, model_->fps);
 }
@@ -140,7 +142,7 @@ Slices<> TransitionRun::Dance(Sampler& sampler) {
   if (!MayBeRetaken()) co_return;
   for (uint32_t take = 1; take <= kMaxTransitionRetakes && Strain() > 1; ++take) {
     TransitionRun other = fresh;
-    // Far from the numbers of other candidates and of a sampler's own retakes.
+    // Distant from the numbers of other candidates and of a sampler's own retries.
     other.set_candidate(fresh.spec().candidate + (take << 16));
     co_await other.DanceOnce(sampler);
     other.set_candidate(fresh.spec().candidate);
@@ -161,7 +163,8 @@ Slices<> TransitionRun::DanceOnce(Sampler& sampler) {
   MeasureArrival();
 }
 
-// No model is asked: a new sample in each of these short transitions would tremble.
+// Does not use the model, because a new sample in each of these short transitions would look like
+// trembling.
 void TransitionRun::Hold() {
   Motion motion{.fps = model_->fps,
                 .frames = std::vector(static_cast<size_t>(spec_->frames), spec_->target->pose)};
@@ -224,8 +227,9 @@ void TransitionRun::CheckFinite(size_t frame, const Pose& pose, std::span<const 
                   whose + ", is not a finite pose");
 }
 
-// Processes a part of the frames only, so that other dances need not wait for the footwork of a
-// long plan. Parts are about equally long: in a short last one the pelvis had to dash to the key.
+// Processes only a part of the frames, so that other dances need not wait for a long plan's
+// footwork. Parts are about equally long, because in a short last part the pelvis would have to
+// move too fast to the key.
 void TransitionRun::PutOnFeet() {
   const auto from = plan_.begin() + std::ssize(frames_);
   const std::ptrdiff_t left = plan_.end() - from;

@@ -26,10 +26,10 @@ namespace choreo {
 
 /// One finished frame.
 struct DanceFrame {
-  Pose pose;  ///< world; rounded to floats, as it is sent and as the next transition finds it
-  Contacts contacts = {};                    ///< the model's, if without footwork
+  Pose pose;               ///< world; rounded to floats, as sent and as the next transition uses it
+  Contacts contacts = {};  ///< the model's own if there is no footwork
   std::optional<float> log_likelihood = {};  ///< nats; none if the model has no exact likelihood
-  /// The speeds that velocity factors ask for in this frame, by BodyPart, metres a frame.
+  /// The speeds requested by velocity factors in this frame, by BodyPart, metres per frame.
   std::optional<std::array<float, kBodyParts>> asked_speeds = {};
 };
 
@@ -39,50 +39,50 @@ struct DancedState {
   std::optional<GroundFrame> stage = {};  ///< TransitionSpec::stage
 };
 
-/// What a transition of a dance depends on. Values, so that later messages change nothing.
+/// All inputs of a dance's transition. They are values, so later messages do not change them.
 struct TransitionInputs {
   DanceManner manner = {};
-  uint64_t seed = 0;  ///< the dance's; the music's identity is added to it
+  uint64_t seed = 0;  ///< the dance's seed; the music's identity is added to it
   ControlTrack controls;
   Segment segment;
-  /// The poses danced or given before the transition; without any it starts from
-  /// ControlTrack::Stance.
+  /// The state before the transition. Without poses it starts from ControlTrack::Stance.
   DancedState before = {};
   std::optional<Pose> after = {};        ///< TransitionSpec::after
   std::vector<int64_t> noise_like = {};  ///< TransitionSpec::noise_like
   TransitionMusic music = {};
 };
 
-/// Makes one transition slice by slice: samples it, steers it onto its key, and puts it on its
-/// feet. A pure function of the spec and the model; the same code serves streams, single
-/// transitions and evaluation. Not thread-safe.
+/// Generates one transition slice by slice: samples it, steers it onto its key, and corrects its
+/// footwork. A pure function of the spec and the model. Streams, single transitions and evaluation
+/// share this code. Not thread-safe.
 class TransitionRun {
  public:
-  /// `world`: in the world frame. Its history may have any number of poses: the last tau count,
-  /// fewer are padded with the earliest, and none means the neutral stance at the origin. A target
-  /// without a position needs no height. Throws what ValidSpec throws.
+  /// `world`: in the world frame. Its history may have any number of poses: only the last tau are
+  /// used, fewer are padded with the earliest, and none means the neutral stance at the origin. A
+  /// target without a position needs no height. Throws what ValidSpec throws.
   TransitionRun(const ModelInfo& model, const TransitionSpec& world);
 
-  /// In its canonical frame.
+  /// The spec in its canonical frame.
   const TransitionSpec& spec() const { return *spec_; }
   void set_candidate(uint32_t candidate) {
     spec_.Change([candidate](TransitionSpec& spec) { spec.candidate = candidate; });
   }
 
-  /// Makes all frames. If a joint moves faster than bodies can, though no key demands that, samples
-  /// anew up to four times, and keeps the slowest. Sampler and this must outlive the slices,
-  /// and this must not move meanwhile. Throws Error(kInternal) for a plan of another length, and
-  /// for a value that is not finite, whoever made it.
+  /// Generates all frames. If a joint moves faster than human bodies can and no key requires it,
+  /// samples again up to four times and keeps the slowest result. The sampler and this object must
+  /// outlive the slices, and this object must not be moved meanwhile. Throws Error(kInternal) for a
+  /// plan of the wrong length, and for any value that is not finite.
   Slices<> Dance(Sampler& sampler);
 
-  /// All frames, once they are made.
+  /// All frames, once generated.
   const std::vector<DanceFrame>& frames() const { return frames_; }
-  /// Set after the last frame of a transition with a target; the caller fills in the id.
+  /// How the target was reached. Set after the last frame of a transition with a target. The caller
+  /// fills in the id.
   const std::optional<KeyReached>& arrival() const { return arrival_result_; }
-  /// The state, world, from which a dance continues after this many frames. A path, or a key with a
-  /// root position, moves the stage there.
+  /// The state, in the world frame, from which a dance continues after `frames` frames. A path, or
+  /// a key with a root position, moves the stage there.
   DancedState StateAfter(size_t frames) const;
-  /// None without a target.
+  /// The speeds needed to reach the target; none without a target.
   std::optional<RequiredSpeed> required_speed() const {
     return RequiredSpeedOf(*spec_, model_->fps);
   }
@@ -106,13 +106,13 @@ class TransitionRun {
   std::optional<Target> world_target_;
   GroundFrame ground_;
   std::optional<Arrival> arrival_;  // none: no steering
-  bool held_ = false;               // the dancer holds the target's pose
+  bool held_ = false;               // whether the dancer holds the target's pose
   GroundFrame stage_;               // world
   std::vector<Pose> before_;        // the history, world
-  Pose world_;                      // the newest frame, whose signs are kept
+  Pose world_;                      // the newest frame; later rotations keep its signs
 
   Plan drawn_;              // as sampled
-  std::vector<Pose> plan_;  // canonical, steered; those of frames_ stand on their feet
+  std::vector<Pose> plan_;  // canonical and steered; footwork is corrected for frames_ only
   Eigen::Matrix<double, 3, 2> offset_ = Eigen::Matrix<double, 3, 2>::Zero();  // Footwork::offset
   std::vector<DanceFrame> frames_;
   std::optional<KeyReached> arrival_result_;
@@ -124,10 +124,10 @@ struct PreparedTransition {
   std::vector<Warning> warnings;  ///< about its controls and its key
 };
 
-/// Prepares one transition of a dance. Throws what TransitionRun throws.
+/// Prepares one transition of a dance. Throws what TransitionRun's constructor throws.
 PreparedTransition PrepareTransition(const ModelInfo& model, const TransitionInputs& inputs);
 
-/// Makes a transition at once, then calls `danced` with its number of frames. Throws what
+/// Generates a whole transition, then calls `danced` with its number of frames. Throws what
 /// TransitionRun throws.
 TransitionRun DanceTransition(Sampler& sampler, const TransitionSpec& world,
                               const std::function<void(int)>& danced = {});

@@ -78,15 +78,15 @@ class TransitionGroup::Impl::Job : public SampleJob,
     } catch (...) {
       group_->mailbox_.GiveUp();
     }
-    group_->Cancel();  // a ranking with a candidate missing is worthless
+    group_->Cancel();  // a ranking that lacks a candidate is worthless
   }
 
   double Deadline() const override { return deadline_; }
   int frames() const override { return run_.spec().frames; }
   bool Cancelled() const override { return group_->cancelled_; }
 
-  /// Hands out a few frames once they are sampled, unless the group is paused. True if there may be
-  /// more.
+  /// Hands out a few frames once they are sampled, unless the group is paused. Returns true if
+  /// there may be more.
   bool HandOut() {
     return pacer_.Run(
         mutex_, kFramesASlice, [this] { return TakeNext(); },
@@ -96,7 +96,7 @@ class TransitionGroup::Impl::Job : public SampleJob,
         });
   }
 
-  /// Has a worker go on after a pause.
+  /// Lets a worker continue after a pause.
   void Resume() {
     {
       std::lock_guard lock(mutex_);
@@ -118,7 +118,7 @@ class TransitionGroup::Impl::Job : public SampleJob,
     } while (HandOut());
   }
 
-  // Requires mutex_. Null if nothing may go out.
+  // Requires mutex_. Returns null if nothing may be handed out.
   const DanceFrame* TakeNext() {
     if (!is_sampled_ || group_->paused_ || group_->cancelled_ || handed_out_ == frames())
       return nullptr;
@@ -152,7 +152,8 @@ class TransitionGroup::Impl::Job : public SampleJob,
 
   int Number() const { return static_cast<int>(run_.spec().candidate); }
 
-  // Warns of what no body can do in this candidate; returns CandidateReport::strain.
+  // Warns about motion beyond the limits of human bodies in this candidate. Returns
+  // CandidateReport::strain.
   double Judge() {
     double strain = 0;
     for (Warning& warning : watch_.Take()) {
@@ -166,15 +167,15 @@ class TransitionGroup::Impl::Job : public SampleJob,
 
   const std::shared_ptr<Impl> group_;
   const double deadline_ = PlaybackClock();
-  TransitionRun run_;               // the worker's until it is sampled
+  TransitionRun run_;               // used by the worker until sampled
   std::optional<Slices<>> slices_;  // the worker's
   std::atomic<bool> is_sampled_ = false;
 
-  std::mutex mutex_;  // guards the two below
+  std::mutex mutex_;  // guards the next two members
   Pacer pacer_;
   int handed_out_ = 0;
   HandOver<Job> hand_over_;
-  // Of the thread that hands out.
+  // Only the thread that hands out uses the members below.
   QualityMeter meter_;
   BodyWatch watch_;
   OutputRate output_;
@@ -183,7 +184,7 @@ class TransitionGroup::Impl::Job : public SampleJob,
 TransitionGroup::Impl::Impl(SampleQueue& queue, GroupRequest request,
                             std::shared_ptr<GroupSink> sink)
     : queue_(queue),
-      room_(queue.ReserveBulk(request.candidates)),  // before all work, which a refusal would waste
+      room_(queue.ReserveBulk(request.candidates)),  // before any work that a refusal would waste
       model_(queue.model()),
       first_frame_(request.FirstFrame()),
       request_(std::move(request)),
@@ -215,7 +216,7 @@ void TransitionGroup::Impl::Begin() {
   Segment segment{first_frame_, end, std::nullopt};
   if (const auto& target = request_.target)
     segment.key = Key{request_.target_id, end - 1, target->pose, target->mask, request_.hit};
-  // All candidates have the same request, so it is checked and warned of once.
+  // All candidates have the same request, so it is checked once and its warnings are sent once.
   DanceMusic music(model_, request_, audio_.get(), /*detects=*/false);
   auto [run, warnings] = PrepareTransition(
       model_,
@@ -248,7 +249,7 @@ void TransitionGroup::Impl::Begin() {
   try {
     for (auto& job : jobs) queue_.SubmitBulk(std::move(job));
   } catch (...) {
-    mailbox_.PostLast([](GroupSink&) {});  // the caller gets the exception; the sink stays silent
+    mailbox_.PostLast([](GroupSink&) {});  // the caller gets the exception; the sink gets no call
     Cancel();
     throw;
   }

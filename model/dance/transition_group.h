@@ -15,42 +15,42 @@ namespace choreo {
 /// The result of one candidate.
 struct CandidateReport {
   int candidate = 0;
-  QualityReport quality;  ///< its keys: one if there was a target
+  QualityReport quality;  ///< has one key if there was a target
   Continuation continuation;
-  /// How far it goes beyond what bodies can do (BodyWatch): the largest figure over its limit; 0 if
-  /// it does not.
+  /// The excess over the limits of human bodies (BodyWatch): the largest ratio of a figure to its
+  /// limit; 0 if no limit is exceeded.
   double strain = 0;
 };
 
-/// Listens to a group. Calls come one at a time, from worker threads, with no lock held; they must
-/// not block.
+/// Receives a group's results. Its functions are called one at a time, from worker threads, without
+/// any lock. They must not block.
 class GroupSink {
  public:
   virtual ~GroupSink() = default;
   virtual void OnFrames(int candidate, int64_t first_frame, std::span<const Pose> poses,
                         std::span<const Contacts> contacts) = 0;
   virtual void OnWarning(const Warning& warning) = 0;
-  /// Last call: the candidates, best first.
+  /// The last call: the candidates, best first.
   virtual void OnDone(std::span<const CandidateReport> ranked) = 0;
-  /// Last call, instead of OnDone.
+  /// The last call, instead of OnDone.
   virtual void OnError(const Error& error) = 0;
 };
 
-/// Sorts candidates, best first. kQuality compares the strain, then the steering
+/// Sorts candidates, best first. kQuality compares, in this order: the strain; the steering
 /// (KeyReached::correction_m, which includes a miss of the key; 0 without a target) in steps of 1
-/// cm, then the share of frames without support in steps of 5 %, then the skate ratio in steps of 1
-/// %, then the likelihood if the model has one, then the candidate's number. kLikelihood compares
-/// the likelihood (which favours calm motion), then the number.
+/// cm; the share of frames without support in steps of 5 %; the skate ratio in steps of 1 %; the
+/// likelihood, if the model has one; the candidate's number. kLikelihood compares the likelihood,
+/// which favours calm motion, and then the number.
 void RankCandidates(std::vector<CandidateReport>& candidates, RankBy by = RankBy::kQuality);
 
-/// GenerateTransition: has the candidates of one transition sampled as bulk work, and hands out
-/// their frames as the sink takes them. Candidate 0 is what DanceStream dances for the same
-/// interval. The destructor cancels. Thread-safe. The queue must outlive it.
+/// Implements GenerateTransition. Samples the candidates of one transition as bulk work, and hands
+/// out their frames as fast as the sink accepts them. Candidate 0 equals DanceStream's dance for
+/// the same interval. The destructor cancels. Thread-safe. The queue must outlive this object.
 class TransitionGroup {
  public:
-  /// `request`: for the queue's model. Throws Error(kResourceExhausted) if the queue has no room
-  /// for all candidates (SampleQueue::ReserveBulk); the room is held until this and its jobs are
-  /// gone.
+  /// `request`: must have been checked against the queue's model. Throws Error(kResourceExhausted)
+  /// if the queue has no room for all candidates (SampleQueue::ReserveBulk). The room is reserved
+  /// until this object and its jobs are destroyed.
   TransitionGroup(SampleQueue& queue, ValidGroup request, std::shared_ptr<GroupSink> sink);
   ~TransitionGroup();
   TransitionGroup(const TransitionGroup&) = delete;

@@ -92,7 +92,8 @@ void CheckReached(const Continuation& continuation, const std::string& field) {
 
 void ValidateContinuation(const ModelInfo& model, const Continuation& continuation,
                           bool allow_inexact, const std::string& field) {
-  // One more than the last frame: a key may be in the last frame, and the dance ends after it.
+  // One more than the last frame, because a key may be in the last frame, and the dance ends after
+  // it.
   CheckedIn(continuation.frame, 0, kMaxDanceFrames + 1, field + ".frame");
   if (static_cast<int>(continuation.poses.size()) != model.history_frames) {
     throw InvalidArgument(field + ".poses", std::to_string(continuation.poses.size()) +
@@ -101,7 +102,7 @@ void ValidateContinuation(const ModelInfo& model, const Continuation& continuati
   }
   CheckHistory(model.skeleton, continuation.poses, field + ".poses");
   if (continuation.last_beat) {
-    // Beats may lie after the music's end, as far as the last transition reached.
+    // Beats may be after the music's end, as far as the last transition reached.
     const double longest = kMaxDanceFrames / model.fps;
     if (!(*continuation.last_beat >= 0 && *continuation.last_beat <= longest)) {
       throw InvalidArgument(field + ".last_beat", Show(*continuation.last_beat) +

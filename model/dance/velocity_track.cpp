@@ -12,7 +12,8 @@
 namespace choreo {
 namespace {
 
-// How far a speed may miss the requested one without a warning: a share, and metres a frame.
+// The differences between a speed and the requested one that cause no warning: a share, and metres
+// per frame.
 constexpr double kSpeedTolerance = 0.15, kMinMiss = 0.001;
 
 const VelocityReference* FindReference(const ModelInfo& model, const std::string& name) {
@@ -45,7 +46,7 @@ bool Names(const VelocityRequest& request, BodyPart part) {
   return request.parts.empty() || std::ranges::find(request.parts, name) != request.parts.end();
 }
 
-/// The speed that a valid request sets for a part that it names, metres a frame.
+/// The speed that a valid request sets for one of its parts, metres per frame.
 float SpeedAt(const VelocityRequest& request, int64_t frame, BodyPart part,
               const ModelInfo& model) {
   const auto& [frames, parts, factors, speeds, reference] = request;

@@ -12,7 +12,7 @@
 namespace choreo {
 namespace {
 
-/// People count seconds; programs have the event's frame.
+/// Formats a time in seconds for people; programs have the event's frame.
 std::string Seconds(int64_t frames) {
   return Rounded(static_cast<double>(frames) / kModelFps) + " s";
 }
