@@ -8,10 +8,10 @@
 namespace choreo {
 namespace {
 
-// Share of the window after which the path alone leads. Reaching it early spreads the rest of the
-// way over more frames: for a 15 cm miss, 2/3 lowers the peak acceleration by a quarter compared
-// with a weight that is full only at the key, 1/2 by a third, but then the model is silent for half
-// of the window.
+// Share of the window after which the path alone determines the poses. An early share spreads the
+// correction over more frames. For a 15 cm miss, 2/3 lowers the peak acceleration by a quarter
+// compared with a weight that reaches 1 only at the key; 1/2 lowers it by a third, but ignores the
+// model in half of the window.
 constexpr double kFull = 2.0 / 3;
 
 // Weight of the newest frame in the model's velocity.
@@ -98,7 +98,7 @@ Pose Arrival::Steered(const Pose& raw) {
     const Eigen::Vector3d from = previous_.rotations.col(joint);
     const Eigen::Vector3d model = raw.rotations.col(joint);
     Eigen::Vector3d way = RotationDifference(from, target_.pose.rotations.col(joint));
-    // The shorter way near half a turn changes sides with every small step, so keep the first one.
+    // Near half a turn, small steps change which way is shorter, so keep the first choice.
     if (has_expected_way_) way = NearestBranch(way, expected_way_.col(joint));
     const Eigen::Vector3d path = RotationCompose(
         from, Step(way, velocity_.joints.col(joint), end_velocity.joints.col(joint), left_));

@@ -8,26 +8,27 @@
 
 namespace choreo {
 
-/// Leads a model's frames to a key, frame by frame, without look-ahead. In its window, the last
-/// frames of a transition, the emitted pose is y_t = x_t (+) w (h_t (-) x_t): x_t is the model's
-/// frame; w rises smoothly from 0 to 1 over the first two thirds of the window; h_t is the next
-/// frame of the path from y_{t-1} to the key that has the least sum of squared second differences
-/// and passes the key with the velocity of the model's own frames (docs/decisions.md). Root and
-/// joints (on the tangent space at y_{t-1}) are treated alike; degrees of freedom outside the key's
-/// mask pass through, except that the root takes the velocity after the key, if that is known. All
-/// poses are in one frame (the canonical one). Not thread-safe.
+/// Steers a model's frames to a key, frame by frame, without look-ahead. In Arrival's window, the
+/// last frames of a transition, the emitted pose is y_t = x_t (+) w (h_t (-) x_t): x_t is the
+/// model's frame; w rises smoothly from 0 to 1 over the first two thirds of the window; h_t is the
+/// next frame of the path from y_{t-1} to the key with the least sum of squared second differences
+/// and, at the key, the velocity of the model's own frames (docs/decisions.md). Root and joints (on
+/// the tangent space at y_{t-1}) are treated alike. Degrees of freedom outside the key's mask are
+/// unchanged, except that the root takes the velocity after the key, if known. All poses are in the
+/// canonical frame. Not thread-safe.
 class Arrival {
  public:
-  /// Whether the path alone leads, from the first frame on (w = 1), as for a pose that is held.
+  /// Whether the path alone determines the poses, from the first frame on (w = 1), as for a held
+  /// pose.
   enum class Lead { kWithModel, kAlone };
 
-  /// `window`: frames, at most those of the transition. `before`: the poses before frame 0, at
-  /// least one, oldest first. `after`: the pose one frame after the key, if the following motion is
-  /// known (edits of one interval, loops); the path then also arrives with the velocity towards it.
+  /// `window`: in frames, at most the transition's. `before`: the poses before frame 0, at least
+  /// one, oldest first. `after`: the pose one frame after the key, if the following motion is known
+  /// (edits of one interval, loops). The path then arrives with the velocity towards it.
   Arrival(int window, int transition_frames, const Target& target, const std::vector<Pose>& before,
           const std::optional<Pose>& after = std::nullopt, Lead lead = Lead::kWithModel);
 
-  /// The emitted pose of the next frame; call once per frame of the transition, in order.
+  /// Returns the emitted pose of the next frame. Call once per frame of the transition, in order.
   Pose Apply(const Pose& raw);
 
   int window() const { return window_; }
@@ -40,7 +41,7 @@ class Arrival {
     Eigen::Matrix3Xd joints;
   };
   static Velocity Between(const Pose& a, const Pose& b);
-  // The next of `frames_left` steps along the path.
+  // The next step of the path, which has `frames_left` steps left.
   static Eigen::Vector3d Step(const Eigen::Vector3d& way, const Eigen::Vector3d& velocity,
                               const Eigen::Vector3d& end_velocity, int frames_left);
   Pose Steered(const Pose& raw);
@@ -49,9 +50,9 @@ class Arrival {
   int window_;
   Lead lead_;
   Target target_;
-  std::optional<Velocity> after_;  // from the key on, if known
-  Pose previous_;                  // emitted last
-  Velocity velocity_;              // the step to it
+  std::optional<Velocity> after_;  // velocity after the key, if known
+  Pose previous_;                  // the last emitted pose
+  Velocity velocity_;              // the step to previous_
   Pose last_raw_;
   Velocity model_velocity_;        // of the model's own frames, smoothed
   Eigen::Matrix3Xd expected_way_;  // [3, joints] the remaining turn if all goes to plan: fixes

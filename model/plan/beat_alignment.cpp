@@ -25,8 +25,8 @@ size_t StateOf(int offset, int slope) {
   return static_cast<size_t>((slope + kSteepest) * kOffsets + offset + kFarthest);
 }
 
-// 1 on a beat and -1 halfway between two, smaller for fast beats; 0 before the first, after the
-// last and where the music pauses.
+// A wave that is 1 on a beat and -1 halfway between two, and smaller for fast beats. 0 before the
+// first beat, after the last, and where the music pauses.
 double BeatWave(const PlanContext& context, double t) {
   const auto after = std::ranges::upper_bound(context.beats, t);
   if (after == context.beats.begin() || after == context.beats.end()) return 0;
@@ -39,7 +39,7 @@ double BeatWave(const PlanContext& context, double t) {
 // How a plan reaches each of its frames.
 struct Pace {
   std::vector<double> speeds;  // the mean of all joints, smoothed as kinematic beats are
-  std::vector<double> most;    // the fastest pace of time, at least 1, at which bodies can move
+  std::vector<double> most;    // the fastest pace of time, at least 1, that human bodies allow
 };
 
 Pace PaceOf(const PlanContext& context, std::span<const Pose> plan) {
@@ -59,7 +59,7 @@ Pace PaceOf(const PlanContext& context, std::span<const Pose> plan) {
 
 // Neighbouring offsets that are reached at one slope.
 struct Reached {
-  const float* best;  // of the offsets from which this slope leads there, at this slope
+  const float* best;  // for the offsets from which this slope leads to these, at this slope
   const double *worth, *fastest;
   int count, slope;
   double pace;
@@ -68,7 +68,7 @@ struct Reached {
 CHOREO_EACH_CPU void Reach(const Reached& at, float* __restrict next,
                            signed char* __restrict before) {
   const auto slope = static_cast<signed char>(at.slope);
-  // Slopes change by one at most; at the ends by none that is not there.
+  // Slopes change by at most one, within the range of slopes.
   const float* below = at.slope > -kSteepest ? at.best - kOffsets : at.best;
   const float* above = at.slope < kSteepest ? at.best + kOffsets : at.best;
   for (int i = 0; i < at.count; ++i) {

@@ -8,9 +8,9 @@
 namespace choreo {
 namespace {
 
-constexpr double kNever = 1e6;  // square metres: the cost of the forbidden
-// Of a frame of a flight that is too long. A whole one costs less than the forbidden, because a
-// fall from high up takes its time.
+constexpr double kNever = 1e6;  // square metres: the cost of a forbidden state
+// The cost of one frame of a flight that is too long. A whole such flight costs less than a
+// forbidden state, because a fall from a height takes long.
 constexpr double kTooLong = kNever / 1e3;
 constexpr int kTurns = 2;        // rounds in which each foot adapts to the other
 constexpr int kAttempts = 3;     // to shorten flights
@@ -32,7 +32,7 @@ class Sums {
   std::vector<Eigen::Vector4d> sums_;
 };
 
-// Until what rises at `speed`, m/s, at a height, metres, has fallen to the floor.
+// The time in which a body that rises at `speed`, m/s, from a height, metres, falls to the floor.
 int FallFrames(double height, double speed, double fps) {
   const double seconds =
       (speed + std::sqrt(speed * speed + 2 * kGravity * std::max(0.0, height))) / kGravity;
@@ -54,7 +54,7 @@ class FootPlanner {
         step_cost_(options.step_cost),
         shortest_step_(std::max(1, static_cast<int>(std::lround(options.shortest_step * fps)))),
         first_step_(FallFrames(foot.fall_before, foot.rise_before, fps)),
-        // A kick may be quicker than a fall: it takes the whole plan at most.
+        // A kick may be faster than a fall. It takes at most the whole plan.
         last_step_(foot.end == FootTrack::End::kInAir
                        ? std::min(frames_, FallFrames(foot.fall_after, 0, fps))
                        : 1),
@@ -130,7 +130,7 @@ class FootPlanner {
     if (from > 0 || foot_.stood) {
       if (IsLast(to)) fewest = last_step_;
     } else {
-      fewest = IsLast(to) ? 1 : first_step_;  // a foot that stays up does not fall
+      fewest = IsLast(to) ? 1 : first_step_;  // a foot that stays in the air does not fall
     }
     const Eigen::Vector4d sum = support_.Of(from, to);
     return sum[1] + sum[2] + kNever * std::max(0, fewest - (to - from + 1));

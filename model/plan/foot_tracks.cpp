@@ -61,7 +61,7 @@ FootTrack Track(const FootworkContext& context, const Leg& leg, double toes_rest
   return track;
 }
 
-// A flying body falls no farther than to where it stands, however high its feet are.
+// A flying body falls no farther than to its standing height, however high its feet are.
 void LimitFalls(const FootworkContext& context, const Pose& end, double rise,
                 std::array<FootTrack, 2>* feet) {
   const auto fly = [&](double FootTrack::*fall) {

@@ -9,10 +9,10 @@
 #include "model/plan/contact_plan.h"
 #include "model/plan/footwork.h"
 
-/// Measures what the feet and the balance of a plan are like before footwork. Pure functions.
+/// Measures a plan's feet and balance before footwork. Pure functions.
 namespace choreo {
 
-/// The feet of a skeleton that has legs, and their heights at rest, metres.
+/// The feet of a skeleton with legs, and their heights at rest, metres.
 struct FeetAtRest {
   explicit FeetAtRest(const Skeleton& skeleton);
 
@@ -21,7 +21,8 @@ struct FeetAtRest {
   Eigen::RowVectorXd clearance;  ///< FloorClearance
 };
 
-/// The points (x, z) where the floor carries a body, whose joints are at `joints`, beside its feet.
+/// The points (x, z), other than feet, at which the floor carries a body with these joint
+/// positions.
 std::vector<Eigen::Vector2d> CarriersOf(const Skeleton& skeleton, const FeetAtRest& feet,
                                         const Eigen::Matrix3Xd& joints);
 
@@ -29,8 +30,8 @@ std::vector<Eigen::Vector2d> CarriersOf(const Skeleton& skeleton, const FeetAtRe
 std::vector<Eigen::Vector3d> CentresOfMass(const FootworkContext& context,
                                            const std::vector<Pose>& plan);
 
-/// Both feet of the plan, whose joints are at `placements`, whose CarriersOf are `carriers`, and
-/// whose CentresOfMass are `centres`.
+/// The tracks of both feet of a plan. `placements`: its joints' positions. `carriers`: its
+/// CarriersOf. `centres`: its CentresOfMass.
 std::array<FootTrack, 2> TrackFeet(const FootworkContext& context, const FeetAtRest& feet,
                                    const std::vector<Pose>& plan,
                                    const std::vector<JointPlacement>& placements,

@@ -20,7 +20,7 @@ namespace {
 
 constexpr double kHalfToes =
     0.75;                   // share of a foot's length: the height of its ankle on half toes
-constexpr int kPasses = 2;  // the second one, as moved legs move the centre of mass
+constexpr int kPasses = 2;  // twice, because moving the legs moves the centre of mass
 
 class PlanStander {
  public:
@@ -52,7 +52,8 @@ class PlanStander {
     offset_ = Eigen::Matrix3Xd::Zero(3, frames_);
     for (int pass = 0; pass < (context_.held ? 1 : kPasses); ++pass) {
       if (pass > 0) centres_ = CentresOfMass(context_, plan_);
-      // A held pose keeps its balance: a pelvis or feet that moved away and back would tremble.
+      // A held pose keeps its balance, because moving pelvis or feet away and back would look like
+      // trembling.
       if (!context_.held)
         offset_ = PelvisOffset(Supports(), centres_.front() - context_.offset_before.col(1),
                                {.returns = context_.keyed,
@@ -75,13 +76,13 @@ class PlanStander {
 
  private:
   bool Stands(size_t side, int frame) const { return StanceAt(stances_[side], frame) != nullptr; }
-  // The share of a change within kSettleSeconds that is done after so many frames.
+  // The completed share of a change over kSettleSeconds after `frames` frames.
   double Settled(int frames) const {
     return SmoothStep(std::clamp(frames / (kSettleSeconds * context_.fps), 0.0, 1.0));
   }
   bool IsKey(int frame) const { return context_.keyed && frame == frames_ - 1; }
 
-  // The way from what carries the body in a frame to the centre of mass, without the sole.
+  // The vector from the body's support in a frame to its centre of mass, not counting the sole.
   Eigen::Vector2d Beyond(int frame) const {
     std::vector<Eigen::Vector2d> hull = carriers_[static_cast<size_t>(frame)];
     for (size_t side = 0; side < 2; ++side) {
@@ -137,7 +138,7 @@ class PlanStander {
     };
     const Eigen::Matrix3Xd before = JointPositions(skeleton_, context_.history.back());
     const Eigen::Matrix3Xd& end = planned_.back().positions;
-    // Of a measure of the foot, what is left of the previous pose's and the key's in a frame.
+    // The part of the previous pose's and the key's measure that remains in a frame.
     const auto own = [&](const auto& measure, int frame) {
       const double first = measure(before), last = context_.keyed ? measure(end) : 0;
       if (context_.held) return std::max(first, last);
@@ -208,8 +209,8 @@ class PlanStander {
     }
   }
 
-  // By how much to raise frames, smoothly, so that each is raised by as much as it has `sunk`,
-  // except near the ends, which stay.
+  // A smooth height by which to raise frames, at least as much as each has `sunk`, except near the
+  // ends, which keep their height.
   std::vector<double> Raises(const std::vector<double>& sunk) const {
     std::vector<double> raises(sunk.size());
     for (int frame = 0; frame < frames_; ++frame) {
@@ -222,8 +223,8 @@ class PlanStander {
     return raises;
   }
 
-  // A body that leaves the floor, or comes to it, would swing its legs through it: raises the plan
-  // there. Elsewhere legs that are under the floor bend.
+  // Raises the plan where the body leaves or reaches the floor, because its legs would swing
+  // through the floor. Elsewhere legs under the floor bend.
   void RaisePlan() {
     if (context_.held || context_.has_heights) return;
     std::vector<double> sunk(plan_.size());

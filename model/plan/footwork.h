@@ -27,15 +27,15 @@ struct FootworkContext {
 /// The result of footwork.
 struct Footwork {
   std::vector<Contacts> contacts;  ///< per frame; empty: the plan is unchanged
-  /// How far the pelvis moved from the plan in the last two frames, oldest first, metres.
+  /// The pelvis's displacement from the plan in the last two frames, oldest first, metres.
   Eigen::Matrix<double, 3, 2> offset = Eigen::Matrix<double, 3, 2>::Zero();
 };
 
-/// Puts a plan on its feet. Plans for all frames at once which foot stands where (contact_plan.h);
-/// steps to where the body needs support on a path; moves toes between stances (toes_path.h); moves
-/// the pelvis so that legs reach and the body is balanced (pelvis_offset.h); legs follow by inverse
-/// kinematics. Leaves skeletons without legs or with unknown masses (motion/body_mass.h) unchanged.
-/// Pure, thread-safe.
+/// Corrects a plan's footwork. Plans the stances of both feet for all frames at once
+/// (contact_plan.h), and on a path steps to where the body needs support. Moves toes between
+/// stances (toes_path.h), and moves the pelvis so that legs reach and the body is balanced
+/// (pelvis_offset.h). Inverse kinematics then poses the legs. Leaves plans unchanged for skeletons
+/// without legs or with unknown masses (motion/body_mass.h). Pure, thread-safe.
 Footwork StandOnFeet(const FootworkContext& context, std::vector<Pose>* plan);
 
 }  // namespace choreo

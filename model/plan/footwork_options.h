@@ -7,12 +7,12 @@ namespace choreo {
 
 /// Settings of footwork (model/plan/footwork.h). Stored in the model's checkpoint.
 struct FootworkOptions {
-  /// Cost of a step, in square metres that toes leave the plan for a frame.
+  /// Cost of a step, in square metres of the toes' distance from the plan for one frame.
   double step_cost = 0.05;
-  double flight_cost = 0.3;     ///< cost of a frame without a foot on the floor, likewise
+  double flight_cost = 0.3;     ///< cost of a frame without a foot on the floor, in the same unit
   double shortest_step = 0.15;  ///< seconds in the air
   double longest_flight = 0.4;  ///< seconds without a foot on the floor
-  /// The pelvis accelerates away from the plan by this, m/s², if ...
+  /// The pelvis's acceleration away from the plan, m/s², if ...
   double acceleration = 2;
   double offset = 0.10;  ///< ... that moves it by this many metres, ...
   double reach = 0.01;   ///< ... or legs are this many metres too short for their feet, ...

@@ -76,7 +76,7 @@ class PelvisSolver {
     const auto last = std::find_if(frames.rbegin(), frames.rend(), bears).base();
     first_borne_ = static_cast<int>(first - frames.begin());
     last_borne_ = static_cast<int>(last - frames.begin()) - 1;
-    if (!rules.heights_alone) {  // on a path they stay as planned: it may say how high they are
+    if (!rules.heights_alone) {  // on a path they stay as planned, because it may set the height
       lands_ = Lands();
       takes_off_ = TakesOff();
     }
@@ -115,10 +115,10 @@ class PelvisSolver {
     if (frame < first_borne_) return lands_;
     return frame < last_borne_ || takes_off_;
   }
-  // Metres that a body falls from rest in so many frames.
+  // The distance that a body falls from rest in `frames` frames, metres.
   double Fall(int frames) const { return kGravity / 2 * step_ * Square(frames); }
   // Whether a body that flies before the first frame and falls freely lands near its plan. Feet
-  // that a recording has a little above the floor are no leap.
+  // slightly above the floor in a recording are not a leap.
   bool Lands() const {
     if (first_borne_ == 0 || first_borne_ == count_) return false;
     const int frames = first_borne_ + 1;

@@ -7,12 +7,13 @@
 
 namespace choreo {
 
-/// The straightest that a standing or stepping leg may be, as a share of its length.
+/// The largest distance from hip to ankle of a standing or stepping leg, as a share of the leg's
+/// length.
 inline constexpr double kStraightestLeg = 0.985;
 
 /// One frame's requirements on the pelvis. Metres; the floor is y = 0.
 struct SupportFrame {
-  /// A standing foot: the way from the hip to its ankle's target, and the leg's length.
+  /// For a standing foot: the vector from the hip to its ankle's target, and the leg's length.
   struct Leg {
     Eigen::Vector3d to_ankle;
     double length;
@@ -22,7 +23,7 @@ struct SupportFrame {
   Eigen::Vector3d centre;                ///< of mass, smoothed
 };
 
-/// Limits on how the pelvis may move, with the whole body.
+/// Limits on the motion of the pelvis, which moves the whole body.
 struct PelvisRules {
   bool returns = false;        ///< zero in the last frame, which is a key
   bool heights_alone = false;  ///< only heights move, as a path fixes the floor position
@@ -32,12 +33,12 @@ struct PelvisRules {
   FootworkOptions options = {};
 };
 
-/// Minimises the squared acceleration and length of the pelvis's offset from the plan, [3, frames],
-/// metres, so that legs reach their feet, the centre of mass and the zero moment point stay over
-/// them, and leaps fall at 9.81 m/s²: from floor to floor, to a key in the air, from the air to the
-/// floor. `centre_before`: the plan's centre of mass in the frame before the first. Hulls and legs
-/// are not linear, so a few rounds start from their nearest points again; the remaining error never
-/// grows. Pure.
+/// Computes the pelvis's offset from the plan, [3, frames], metres. Minimises its squared
+/// acceleration and length, subject to three conditions: legs reach their feet; the centre of mass
+/// and the zero moment point stay over the feet; jumps fall at 9.81 m/s², from floor to floor, to a
+/// key in the air, or from the air to the floor. `centre_before`: the plan's centre of mass in the
+/// frame before the first. Hulls and legs are not linear, so a few rounds linearise again at their
+/// nearest points; the remaining error never grows. Pure.
 Eigen::Matrix3Xd PelvisOffset(const std::vector<SupportFrame>& frames,
                               const Eigen::Vector3d& centre_before, const PelvisRules& rules);
 

@@ -9,15 +9,15 @@ namespace choreo {
 
 /// Settings of the stages in model/plan (plan_stages.h). Stored in the model's checkpoint.
 struct PlanOptions {
-  /// How much time may speed up or slow down to bring the dancer's beats onto the music's.
+  /// How much time may speed up or slow down to align the dancer's beats with the music's.
   double accent = 0.5;
-  double whole_accent = 1;       ///< seconds: shorter transitions, dominated by keys, have less
-  double fastest = 1.0 / 3;      ///< seconds between beats: faster ones count less
+  double whole_accent = 1;   ///< seconds: shorter transitions, which keys dominate, get less accent
+  double fastest = 1.0 / 3;  ///< seconds between beats: faster beats have less effect
   double hinge_softness = 0.03;  ///< radians of bend over which a hinge stops softly
   FootworkOptions footwork = {};
 
-  /// Throws Error(kInvalidArgument, field) for options by which time could run backwards, or a
-  /// hinge never stop.
+  /// Throws Error(kInvalidArgument, field) for options with which time could run backwards or a
+  /// hinge would never stop.
   void Validate(const std::string& field) const;
 };
 

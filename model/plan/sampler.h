@@ -8,32 +8,32 @@
 #include "model/motion/contacts.h"
 #include "model/plan/transition_spec.h"
 
-/// The interface between dances and networks: a transition's spec in, its plan out. No torch, no
-/// gRPC.
+/// The interface between dances and networks: takes a transition's spec and returns its plan.
+/// Independent of torch and gRPC.
 namespace choreo {
 
-/// A model's proposal for a whole transition, in its canonical frame; arrival and footwork follow.
+/// A model's output for a whole transition, in its canonical frame, before arrival and footwork.
 struct Plan {
   std::vector<Pose> poses;         ///< [frames]
   std::vector<Contacts> contacts;  ///< [frames], probability-like, [0, 1]
-  /// [frames] nats (model's standardised space, including log-determinants), from models with exact
-  /// ones; else empty.
+  /// [frames] nats (in the model's standardised space, including log-determinants); empty if the
+  /// model has no exact ones.
   std::vector<float> log_likelihoods;
 };
 
-/// A model on one device. A plan is a function of model and spec alone, whatever else is sampled.
-/// Not thread-safe; its plans are made on the thread that owns it.
+/// A model on one device. A plan depends only on model and spec. Not thread-safe: plans are sampled
+/// on the thread that owns the sampler.
 class Sampler {
  public:
   virtual ~Sampler() = default;
   const ModelInfo& model() const { return model_; }
   const std::string& device() const { return device_; }  ///< "cpu", "cuda:0"
 
-  /// Samples a plan, in slices so short that a due frame can wait for one. Spec and sampler must
-  /// outlive the slices.
+  /// Samples a plan in slices, each short enough for a due frame to wait for it. Spec and sampler
+  /// must outlive the slices.
   virtual Slices<Plan> Begin(const ValidSpec& spec) = 0;
 
-  /// Measured by WarmUp; 0 before.
+  /// Seconds per frame, measured by WarmUp; 0 before.
   double seconds_a_frame() const { return seconds_a_frame_; }
   void set_seconds_a_frame(double seconds) { seconds_a_frame_ = seconds; }
 

@@ -75,7 +75,7 @@ class PathMaker {
     const Eigen::Vector3d goal = next != nullptr ? Standing(*next, after) : Planned(to);
     const Eigen::Vector3d far = goal - start;
     const double arc = std::min(kMaxArc, kArc + kArcPerMetre * std::hypot(far.x(), far.z()));
-    // The plan is free beside the straight way, except near a standing end.
+    // The path may leave the straight line as planned, except near a standing end.
     const auto free = [&](double u) {
       return SmoothStep(std::min({1.0, 3 * u, u * (after - before) / settle_}));
     };

@@ -7,14 +7,15 @@
 
 namespace choreo {
 
-/// Seconds in which a foot moves from its previous place to its stance, and from there to the key.
+/// The time in which a foot moves from its previous place to its stance, and from there to the key,
+/// in seconds.
 inline constexpr double kSettleSeconds = 0.2;
 
-/// The toes in each frame: at a stance's place during it; between stances on a path that begins and
-/// ends at rest and follows the plan in its middle, as high above the floor as steps are. A foot
-/// that starts in the air continues as planned; in a key's frame the key decides. `rest`: height of
-/// standing toes. `keyed`: the last frame is a key; else a step may go on beyond it.
-/// `shortest_step`: seconds that a step takes at least.
+/// The toes' positions in each frame. During a stance they are at its place. Between stances they
+/// move at the height of a step, on a path that starts and ends at rest and follows the plan in its
+/// middle. A foot that starts in the air continues as planned. In a key's frame the key sets the
+/// position. `rest`: height of standing toes. `keyed`: the last frame is a key; otherwise a step
+/// may continue beyond it. `shortest_step`: least duration of a step, seconds.
 std::vector<Eigen::Vector3d> ToesPath(const FootTrack& foot, const std::vector<Stance>& stances,
                                       double rest, bool keyed, double fps, double shortest_step);
 

@@ -21,14 +21,14 @@
 #include "model/plan/arrival.h"
 #include "model/plan/footwork_options.h"
 
-/// Describes a model, and a transition that it is to make.
+/// Descriptions of a model, and of a transition to sample.
 namespace choreo {
 
-/// The features of music that a model takes for each frame, besides beats and energy. Such a model
-/// begins a transition once it has all of the transition's music.
+/// The music features that a model uses for each frame, besides beats and energy. A model with such
+/// features starts a transition once all of the transition's music has arrived.
 struct Hearing {
-  int features = 0;  ///< numbers of a frame; 0: nothing
-  /// Makes them of the mel bands, in dB.
+  int features = 0;  ///< numbers per frame; 0: none
+  /// Computes a frame's features from the mel bands, in dB.
   void (*row)(std::span<const double> bands, std::span<float> features) = nullptr;
 
   explicit operator bool() const { return features > 0; }
@@ -39,24 +39,25 @@ struct ModelInfo {
   std::string name;         ///< "default", "paper-f", ...
   std::string fingerprint;  ///< model hash + build + kernel set: equal fingerprints give equal bits
   std::string weights;      ///< hash of the checkpoint's content
-  std::string packed_kernels;  ///< PackedKernels::name of what computes it; empty: LibTorch
-  std::string licence;         ///< of the weights
+  std::string packed_kernels;  ///< PackedKernels::name of its kernels; empty: LibTorch
+  std::string licence;         ///< the weights' licence
   std::string card;            ///< the model card, JSON
   Skeleton skeleton;
   double fps = kModelFps;               ///< rate at which the model runs
   int history_frames = kHistoryFrames;  ///< tau
   int max_transition_frames = kMaxTransitionFrames;
-  /// Frames from a transition's start within which the model sees a later key (LaterTarget). 0: it
-  /// sees none.
+  /// The frames from a transition's start within which the model sees a later key (LaterTarget). 0:
+  /// it sees no later key.
   int sight_frames = 0;
   double default_temperature = 0.3;
   double max_temperature = kMaxTemperature;  ///< higher values change nothing
   bool takes_music = true;                   ///< false: its dances have no music
   Hearing hearing = {};
   bool deterministic = false;              ///< seed, candidate and temperature change nothing
-  bool likelihood = false;                 ///< plans have exact ones (Plan::log_likelihoods)
-  std::vector<std::string> controls = {};  ///< that it takes, of the names in kControls
-  /// The first one, "median", is the default. At least one where velocity factors are taken.
+  bool likelihood = false;                 ///< plans have exact likelihoods (Plan::log_likelihoods)
+  std::vector<std::string> controls = {};  ///< supported controls, by their names in kControls
+  /// The velocity references; at least one if the model takes velocity factors. The first,
+  /// "median", is the default.
   std::vector<VelocityReference> velocity_references = {};
   std::vector<std::string> styles = {};  ///< available for requests
   FootworkOptions footwork = {};
@@ -67,69 +68,69 @@ struct ModelInfo {
   bool Takes(size_t row) const { return Takes(kControls[row].name); }
 };
 
-/// A key that is reached only after a transition.
+/// A key after the end of a transition.
 struct LaterTarget {
   Target target;
   int frames = 0;  ///< >= 1, from the transition's last frame to the key's
 };
 
-/// The music as a model hears it (Hearing).
+/// The music features that a model hears (Hearing).
 struct MusicRows {
   Eigen::MatrixXf history;  ///< [features, tau], of the history's frames, oldest first
-  Eigen::MatrixXf rows;     ///< [features, frames], of the transition's own
+  Eigen::MatrixXf rows;     ///< [features, frames], of the transition's own frames
 };
 
-/// All inputs of a transition. Its poses are in one frame: the world's for a TransitionRun, the
-/// canonical one (motion/canonical.h) for a Sampler.
+/// All inputs of a transition. All poses are in one frame of reference: the world's for a
+/// TransitionRun, the canonical one (motion/canonical.h) for a Sampler.
 struct TransitionSpec {
   int frames = 0;             ///< N >= 1; with a target, frame N-1 is the key's
   std::vector<Pose> history;  ///< tau poses, oldest first; the last one directly precedes frame 0
   std::optional<Target> target;           ///< none: dances to music alone
   std::optional<LaterTarget> later = {};  ///< only without a target; for models with sight_frames
-  /// The pose one frame after the target, if the motion that follows exists already.
+  /// The pose one frame after the target, if the following motion already exists.
   std::optional<Pose> after = {};
-  /// How hard the target is hit, 0 to kMaxHit (plan/plan_stages.h), and then rested in unless
-  /// `after` follows. None: it is passed at the dance's own speed.
+  /// How hard the target is hit, 0 to kMaxHit (plan/plan_stages.h). The dancer then comes to rest
+  /// in it unless `after` follows. None: passes the target at the dance's own speed.
   std::optional<double> hit = {};
-  /// The middle of the floor area that the dance keeps to if nothing fixes its position, and the
-  /// audience, which the dancer faces if nothing fixes the facing. None: where the history ends and
-  /// faces.
+  /// The middle of the floor area in which the dance stays if nothing fixes its position, and the
+  /// audience, which the dancer faces if nothing fixes the facing. None: the position and facing of
+  /// the history's last pose.
   std::optional<GroundFrame> stage = {};
-  /// The music's beats, in frames from frame 0, ascending; a dance without a path is timed to them
+  /// The music's beats, in frames from frame 0, ascending. A dance without a path is timed to them
   /// (plan/plan_stages.h). Empty: unknown.
   std::vector<double> beats;
   Controls controls;        ///< beside the key (paper C, Section 3.3)
-  EnergyShift energy = {};  ///< for models that sample their own energy
+  EnergyShift energy = {};  ///< for models that sample the energy themselves
   uint64_t seed = 0;
   uint32_t candidate = 0;
   int64_t first_frame = 0;  ///< absolute number of frame 0: noise is keyed by (seed, candidate,
                             ///< absolute frame, dimension)
-  /// [frames] or empty: for each frame the absolute frame that it repeats, whose noise it shares,
-  /// with this much `variation`, 0 to 1 (FillNormalLike).
+  /// For each frame, the absolute frame that it repeats and whose noise it shares, with this
+  /// `variation`, 0 to 1 (FillNormalLike). [frames] or empty.
   std::vector<int64_t> noise_like = {};
   double variation = 0;
   float temperature = 0.3F;
   std::string style = {};               ///< one of the model's, or empty for any
-  std::optional<MusicRows> music = {};  ///< for models that hear; none: dances without
-  // For measuring the model alone, set these to 0 and false.
+  std::optional<MusicRows> music = {};  ///< for models that hear; none: no music
+  // Set the next two to 0 and false to measure the model alone.
   int arrival_frames = 12;  ///< Arrival's window
   bool footwork = true;
 };
 
-/// A spec that fits its model.
+/// A spec checked against its model.
 class ValidSpec : public Valid<TransitionSpec> {
  public:
-  /// Throws Error(kInvalidArgument) naming the field unless it has the model's shape: frames,
-  /// history, joints, mask, music rows and controls; also for a control that the model lacks.
+  /// Throws Error(kInvalidArgument), naming the field, unless frames, history, joints, mask, music
+  /// rows and controls have the model's shape, and for a control that the model lacks.
   ValidSpec(TransitionSpec spec, const ModelInfo& model);
 };
 
-/// Whether its target fixes the root's position or a joint.
+/// Whether the spec's target fixes the root's position or a joint.
 bool Keyed(const TransitionSpec& spec);
 
-/// What steers its frames to its target; none without a target or with arrival_frames 0. A model
-/// that makes one frame after another steers each before it makes the next, so that it continues
-/// from where the dance is.
+/// The Arrival that steers the spec's frames to its target; none without a target or with
+/// arrival_frames 0. An autoregressive model steers each frame before it samples the next, so that
+/// it continues from the dance's actual pose.
 std::optional<Arrival> ArrivalOf(const TransitionSpec& spec,
                                  Arrival::Lead lead = Arrival::Lead::kWithModel);
 
