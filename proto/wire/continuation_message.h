@@ -7,15 +7,15 @@
 #include "model/messages/continuation.h"
 #include "model/motion/skeleton.h"
 
-/// Continuations <-> the API's, for the server; to clients they are opaque. Pure functions,
-/// thread-safe.
+/// Converts continuations to the API's messages and back, for the server. To clients they are
+/// opaque. Pure functions, thread-safe.
 namespace choreo::wire {
 
 v1::Continuation ToProto(const Continuation& continuation, const Skeleton& skeleton, uint64_t seed);
 
-/// All but the seed. Throws below `field`: Error(kFailedPrecondition) for a dance of another
-/// skeleton, Error(kInvalidArgument) for arrays of other sizes than `history_frames` poses have.
-/// The engine validates the values.
+/// Reads a continuation, except for the seed. Throws below `field`: Error(kFailedPrecondition) for
+/// a dance of another skeleton, Error(kInvalidArgument) for arrays whose sizes do not match
+/// `history_frames` poses. The engine validates the values.
 Continuation FromProto(const v1::Continuation& message, const Skeleton& skeleton,
                        int history_frames, const std::string& field);
 

@@ -13,17 +13,18 @@
 #include "model/motion/control_request.h"
 #include "model/motion/controls.h"
 
-/// Controls <-> the API's, for server, client and studio. Pure functions, thread-safe.
+/// Converts controls to the API's messages and back, for server, client and studio. Pure functions,
+/// thread-safe.
 namespace choreo::wire {
 
-/// Throws Error(kInvalidArgument) for a part of the body that there is not.
+/// Throws Error(kInvalidArgument) for an unknown body part.
 v1::Controls ToProto(const ControlRequest& controls);
 
-/// Throws Error(kInvalidArgument) below `field` for malformed controls: incomplete points, unknown
-/// parts of the body. The engine validates the values.
+/// Throws Error(kInvalidArgument) below `field` for malformed controls: incomplete points or
+/// unknown body parts. The engine validates the values.
 ControlRequest FromProto(const v1::Controls& controls, const std::string& field);
 
-/// Writes a control's fields (VisitFields) into those of the same names of its message. `field`:
+/// Writes a control's fields (VisitFields) into its message's fields of the same names. `field`:
 /// the control's path in errors.
 class ControlWriter {
  public:
@@ -41,10 +42,10 @@ class ControlWriter {
   std::string field_;
 };
 
-/// Reads them back.
+/// Reads a control's fields from its message.
 class ControlReader {
  public:
-  /// The message must outlive it.
+  /// The message must outlive this object.
   ControlReader(const google::protobuf::Message& message, std::string field)
       : message_(message), field_(std::move(field)) {}
 
@@ -59,11 +60,11 @@ class ControlReader {
   std::string field_;
 };
 
-/// The field of a message that has this name; Error(kInternal) without.
+/// The message's field with this name. Throws Error(kInternal) if there is none.
 const google::protobuf::FieldDescriptor* FieldOf(const google::protobuf::Message& message,
                                                  std::string_view name);
 
-/// Writes a request into a message with a field for each row.
+/// Writes a control request into a message that has a field for each row.
 template <typename Request>
 void WriteControls(const Request& request, google::protobuf::Message* out,
                    std::span<const ControlRow> rows = kControls) {
@@ -78,7 +79,7 @@ void WriteControls(const Request& request, google::protobuf::Message* out,
       request);
 }
 
-/// Reads it back; errors are below `field`.
+/// Reads a control request from its message. Errors are below `field`.
 template <typename Request>
 void ReadControls(const google::protobuf::Message& message, const std::string& field,
                   Request* request, std::span<const ControlRow> rows = kControls) {

@@ -17,39 +17,40 @@
 #include "model/motion/skeleton.h"
 #include "proto/wire/poses.h"
 
-/// Our own types <-> messages of the API, for server, client and studio. FromProto reads a server's
-/// messages: one that breaks the protocol raises Error(kInternal). Pure functions, thread-safe.
+/// Converts our types to messages of the API and back, for server, client and studio. FromProto
+/// reads a server's messages, and throws Error(kInternal) for one that breaks the protocol. Pure
+/// functions, thread-safe.
 namespace choreo::wire {
 
 v1::Skeleton ToProto(const Skeleton& skeleton);
 v1::MusicPassage ToProto(const Passage& passage);
 v1::HandPose ToProto(HandPose hands);
-/// Sets the fields of these names.
+/// Sets the message's fields of the same names.
 void Write(const DanceManner& manner, v1::DanceConfig* out);
 void Write(const KnownMusic& music, v1::DanceConfig* out);
 v1::ModelInfo ToProto(const ModelDescription& model);
-/// The header declares frames in axis-angle.
+/// Writes the header, which declares frames in axis-angle.
 v1::Header ToProto(const DanceHeader& header);
 v1::QualityReport ToProto(const QualityReport& report);
 v1::Timing ToProto(const CallTiming& timing);
-/// `fps`: the model's, at which frames are counted.
+/// `fps`: the model's frame rate, at which frames are counted.
 v1::Event ToProto(const DanceEvent& event, double fps);
 
-/// A client's, unchecked.
+/// Reads a client's message, without checks.
 KnownMusic MusicOf(const v1::DanceConfig& config);
 std::vector<Passage> ToPassages(const google::protobuf::RepeatedPtrField<v1::MusicPassage>& sent);
 
 Skeleton FromProto(const v1::Skeleton& skeleton);
-/// None if unspecified, or one that this version does not know.
+/// None if unspecified or unknown to this version.
 std::optional<HandPose> FromProto(v1::HandPose hands);
 ModelDescription FromProto(const v1::ModelInfo& model);
 DanceHeader FromProto(const v1::Header& header);
 QualityReport FromProto(const v1::QualityReport& report);
 CallTiming FromProto(const v1::Timing& timing);
-/// None for a kind of event that this version does not know yet.
+/// None for a kind of event that this version does not know.
 std::optional<DanceEvent> FromProto(const v1::Event& event);
 
-/// The error for a server that broke the protocol.
+/// The error for a server that breaks the protocol.
 Error Broken(const std::string& what);
 
 }  // namespace choreo::wire
