@@ -9,16 +9,16 @@
 #include "model/engine/packed/kernels.h"
 #include "model/plan/sampler.h"
 
-/// Makes samplers of any kind of model. Free of torch.
+/// Makes samplers for any kind of model. Independent of torch.
 namespace choreo {
 
 /// The build's identity, such as "GNU 12.2.0 Release 0123456789abcdef": compiler, build type, and a
-/// hash of its flags, Eigen's version, the unity setting, and every source that can change a
-/// dance's bits. Builds of the same sources agree, wherever they were made.
-/// cmake/write_build_identity.cmake makes it.
+/// hash over flags, Eigen's version, the unity setting, and every source that can change a dance's
+/// bits. Builds of the same sources have the same identity, wherever they were made.
+/// cmake/write_build_identity.cmake generates it.
 const char* BuildIdentity();
 
-/// Makes samplers that share one device's weights.
+/// Makes samplers that share their weights on one device.
 using SamplerFactory = std::function<std::unique_ptr<Sampler>()>;
 
 /// The device and code that compute a model.
@@ -30,12 +30,12 @@ struct EngineRequest {
 
 struct KernelSet {
   const PackedKernels* exact;
-  /// The kernels for the networks' products: exact ones, or those of bfloat16, whose dances have
-  /// the same figures (docs/decisions.md, 32).
+  /// The kernels for the networks' products: exact ones, or bfloat16 ones, whose dances have the
+  /// same quality figures (docs/decisions.md, 32).
   const PackedKernels* products;
 };
 
-/// The code that computes a model: one of the two.
+/// The code that computes a model; exactly one field is set.
 struct UsedKernels {
   std::string packed = {};  ///< PackedKernels::name
   std::string torch = {};   ///< TorchKernels (model/flow/torch_kernels.h)
@@ -46,10 +46,10 @@ struct UsedKernels {
 /// machine lacks.
 std::optional<KernelSet> ChooseKernels(const EngineRequest& request);
 
-/// Identifies model, weights, build and kernels: equal exactly if every bit is.
+/// The fingerprint of model, weights, build and kernels. Equal exactly if every bit is.
 std::string FingerprintOf(const std::string& name, const std::string& hash,
                           const UsedKernels& kernels);
-/// The licence in a model card, or "".
+/// The licence stated in a model card, or "".
 std::string LicenceOf(const std::string& card);
 
 /// The common part of all checkpoints (CheckpointOf, model/flow/checkpoint.h).
@@ -68,7 +68,7 @@ ModelInfo InfoOf(const Checkpoint& checkpoint, const UsedKernels& kernels) {
           .velocity_references = {}};
 }
 
-/// The velocity reference of every model that takes velocity factors.
+/// The velocity reference that every model with velocity factors has.
 VelocityReference MedianReference(const std::array<double, kBodyParts>& speeds);
 
 }  // namespace choreo

@@ -6,22 +6,22 @@ namespace choreo {
 
 class Sampler;
 
-/// Samples a usual transition twice and discards it, so that one-time setup is done before the
-/// first client and the sampler's seconds_a_frame() is known. Throws what the sampler throws.
+/// Samples a typical transition twice and discards it. This completes one-time setup before the
+/// first client, and measures the sampler's seconds_a_frame(). Throws what the sampler throws.
 void WarmUp(Sampler& sampler);
 
-/// A frame's cost on one worker: from its sampler's warm-up, then from recent transitions.
-/// Thread-safe.
+/// The cost of a frame on one worker, measured in its sampler's warm-up and then in recent
+/// transitions. Thread-safe.
 class SamplingCost {
  public:
-  /// 0: not measured.
+  /// `seconds_a_frame`: the initial cost; 0: not measured.
   explicit SamplingCost(double seconds_a_frame);
 
-  /// Records a transition.
+  /// Records a transition's cost.
   void Add(double seconds, int frames);
 
-  /// The share of the worker's time that this many frames a second need; above 1 for more than it
-  /// can make. 0 if unknown.
+  /// The share of the worker's time that `frames_per_second` need; above 1 if the worker is too
+  /// slow. 0 if unknown.
   double LoadOf(double frames_per_second) const;
 
  private:

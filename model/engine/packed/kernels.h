@@ -61,8 +61,8 @@ struct PackedKernels {
 
 /// The float32 kernels that this machine can run, fastest first; never empty.
 std::span<const PackedKernels* const> PackedKernelsHere();
-/// The same with bfloat16 products and the panel of the fastest of those above; empty if the
-/// machine has no instructions for them.
+/// The kernels with bfloat16 products that this machine can run, with the panel of the fastest
+/// float32 ones. Empty if the machine has no instructions for them.
 std::span<const PackedKernels* const> Bf16KernelsHere();
 
 }  // namespace choreo

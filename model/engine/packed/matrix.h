@@ -14,8 +14,8 @@ namespace choreo {
 
 using RowMajorMatrix = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-/// Zeroed memory in the largest pages that the system gives: small ones cost a large matrix a third
-/// of its speed.
+/// Zeroed memory in the largest pages that the system provides. Small pages slow a large matrix's
+/// products by a third.
 class LargePages {
  public:
   LargePages() = default;
@@ -30,10 +30,10 @@ class LargePages {
   std::unique_ptr<float, Free> data_;
 };
 
-/// Rows of floats that keep their memory: nothing is allocated unless it grows.
+/// Rows of floats that reuse their memory and allocate only to grow.
 class RowBuffer {
  public:
-  /// Its contents are undefined afterwards.
+  /// Resizes. The contents are undefined afterwards.
   void Resize(long rows, long width) {
     stride_ = width;
     if (rows * width <= size_) return;
@@ -81,7 +81,7 @@ class PackedLinear {
   void Multiply(const float* x, long x_stride, const float* init, long init_stride, float* y,
                 long y_stride, long rows) const;
 
-  /// Number of the products' elements: floats, or pairs.
+  /// The depth in elements of the products: floats or pairs.
   long elements() const { return kernels_->pair != nullptr ? (depth_ + 1) / 2 : depth_; }
 
   const PackedKernels* kernels_ = nullptr;
@@ -112,8 +112,8 @@ class PackedTensors {
   const Safetensors& content_;
 };
 
-/// Multiplies random rows in every place of batches of several sizes; true if their bits never
-/// differ. Takes about a millisecond.
+/// Whether a row's products have the same bits in every position of batches of several sizes. Tests
+/// random rows, in about a millisecond.
 bool RowsAreIndependent(const PackedKernels& kernels);
 
 }  // namespace choreo

@@ -44,7 +44,7 @@ class PackedFlowNetwork : public FlowNetwork {
   /// Computes attention over time of the tokens `read`, from `qkv` of all to `mixed`.
   void Attend(const Block& block, Range read, Workspace* work) const;
   /// Computes one block: x += attention, x += perceptron, each weighted by `modulation`. Computes
-  /// the tokens `read`, which are the last ones; those before take part in their attention.
+  /// only the tokens `read`, the last ones, which attend to all tokens.
   void Transform(const Block& block, const float* modulation, Range read, Workspace* work) const;
   /// out = normalised x times (1 + scale) + shift, row by row; both [width].
   void Normalise(const RowBuffer& x, const float* shift, const float* scale, Range rows,
