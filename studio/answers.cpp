@@ -48,7 +48,7 @@ Response ComposeKeys(const StudioContext& context, const Song* music, const Comp
   }
   if (music) {
     composition.passages = music->music.passages;
-    composition.seed ^= music->music.id;  // other songs get other poses
+    composition.seed ^= music->music.id;  // different songs get different poses
   }
   Response response;
   response.mutable_keyframes();

@@ -20,7 +20,7 @@ void RequireCount(const std::string& field, int64_t count, int64_t wanted) {
                         std::to_string(count) + " numbers, must be " + std::to_string(wanted));
 }
 
-/// A pose of a file, whose rotations may be wound up, with the shortest ones.
+/// A pose with the shortest form of its rotations, which in files may exceed a half turn.
 Pose Unwound(Pose pose, const std::string& field) {
   CheckPoseLimits(pose, kMaxWoundRotation, Show(kMaxWoundRotation), field);
   MakeContinuous(pose, {{}, Eigen::Matrix3Xd::Zero(3, pose.rotations.cols())});

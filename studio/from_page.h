@@ -16,14 +16,14 @@ namespace choreo::studio {
 
 client::KeyPose FromProto(const v1::Keyframe& key, const Skeleton& skeleton);
 client::AudioFormat FromProto(const v1::AudioFormat& format);
-/// Rotations of files may be wound up; these are not.
+/// Normalises rotations, which in files may exceed a half turn.
 std::vector<Pose> PosesOf(const v1::History& history, const Skeleton& skeleton);
 live::LiveBeatHint FromProto(const LiveBeats& beats);
 /// The samples of all pieces, in order.
 std::vector<float> SamplesOf(const v1::Audio& audio);
 client::FinishedDance FromProto(const Clip& clip, const Skeleton& skeleton);
 
-/// The counts of the music, of a message with its beats and ones.
+/// The music's counts, from a message with its beats and ones.
 template <typename Message>
 authoring::Counts CountsIn(const Message& message) {
   const std::vector<double> ones(message.ones().begin(), message.ones().end());

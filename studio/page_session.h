@@ -37,7 +37,7 @@ class PageSession {
   struct Dancing {
     std::unique_ptr<client::RemoteDance> dance;
     std::unique_ptr<live::MusicEar> ear;  // of a live dance
-    int64_t granted = 0;                  // frames, of a live dance
+    int64_t granted = 0;                  // granted frames of a live dance
     bool over = false;                    // guarded by mutex_
     std::jthread reader;                  // last: uses the others
   };
@@ -47,13 +47,13 @@ class PageSession {
   void TakeMusic(Dancing* dancing, const v1::Audio& audio);
   void TakeLiveBeats(uint32_t call, const LiveBeats& beats);
   void StartDance(uint32_t call, const Dance& request);
-  /// Sends warnings at the keys' frames about poses that no body can dance.
+  /// Sends warnings, at the keys' frames, about poses that human bodies cannot reach.
   void SendFaults(uint32_t call, const std::vector<client::KeyPose>& keys);
   void ReadDance(uint32_t call, Dancing* dancing);
   void EndDance(uint32_t call);
   void Reap();
 
-  /// Runs the calls that come one after another.
+  /// Runs the calls that are handled in order.
   void Work();
   void Do(const Request& request);
   void TakeSong(uint32_t call, const File& file);

@@ -59,7 +59,7 @@ void TellKeys(authoring::DanceKeys keys, const StudioContext& context,
   }
 }
 
-/// Keeps files for reading in a folder of ours, by name: the page knows no paths.
+/// Stores files in a temporary folder for reading, by name, because the page has no paths.
 void Keep(const RepeatedPtrField<File>& files, const ScratchFolder& folder) {
   for (const File& file : files) {
     const std::filesystem::path name = std::filesystem::path(file.name()).filename();
@@ -67,7 +67,7 @@ void Keep(const RepeatedPtrField<File>& files, const ScratchFolder& folder) {
   }
 }
 
-/// A dancer's own keys, of these files or in the dancer's own text.
+/// A dancer's own keys, from these files or the dancer's own text.
 void TellOwnKeys(const authoring::Dancer& dancer, const ScratchFolder& folder,
                  const StudioContext& context, const authoring::Counts& counts, StageDancer* said) {
   said->set_has_keys(!dancer.keyframes.empty());
@@ -92,7 +92,7 @@ void TellOwnKeys(const authoring::Dancer& dancer, const ScratchFolder& folder,
   }
 }
 
-/// A seed that the page can count to: its numbers are doubles.
+/// A seed that the page can represent, because its numbers are doubles.
 uint64_t ForPage(uint64_t seed, const std::string& field) {
   constexpr uint64_t kMost = (uint64_t{1} << 53) - 1;
   if (seed <= kMost) return seed;

@@ -23,7 +23,7 @@ ordered_json Number(double value) {
   return is_whole && !is_minus_zero ? ordered_json(std::llround(value)) : ordered_json(value);
 }
 
-/// The fewest digits that are this float again.
+/// The fewest digits that give the same float when read.
 ordered_json Number(float value) {
   char text[32];
   const auto end = std::to_chars(std::begin(text), std::end(text), value).ptr;
@@ -32,7 +32,7 @@ ordered_json Number(float value) {
   return Number(static_cast<float>(digits) == value ? digits : double{value});
 }
 
-/// The same in all of a value.
+/// Writes all floats within a JSON value with the fewest digits that preserve them.
 ordered_json AsFloats(ordered_json value) {
   if (value.is_number_float()) return Number(value.get<float>());
   if (value.is_structured())
@@ -40,7 +40,7 @@ ordered_json AsFloats(ordered_json value) {
   return value;
 }
 
-/// A time as people read it, of which its frame comes again.
+/// A time in readable form that gives the same frame when read.
 ordered_json Seconds(int64_t frame, double fps) {
   return Number(std::round(static_cast<double>(frame) / fps * 1e5) / 1e5);
 }

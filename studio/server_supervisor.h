@@ -22,7 +22,7 @@ class ServerSupervisor {
   ServerSupervisor& operator=(const ServerSupervisor&) = delete;
 
   const std::string& address() const { return address_; }
-  /// The process of the running server, or of the last one.
+  /// The process of the running server or, without one, of the last.
   pid_t process() const { return process_; }
 
  private:

@@ -12,15 +12,15 @@
 
 namespace choreo::studio {
 
-/// One page's WebSocket. Reads and writes on its server's thread; the session answers from other
-/// threads and waits its turn.
+/// One page's WebSocket. Reads and writes on its server's thread; the session's answers from other
+/// threads are queued.
 class Socket : public std::enable_shared_from_this<Socket> {
  public:
   /// Sessions end on `leaving`: their last calls may take long while other pages are served.
   Socket(boost::beast::tcp_stream stream, const StudioContext& context,
          boost::asio::thread_pool* leaving);
 
-  /// Upgrades from HTTP.
+  /// Upgrades the connection from HTTP.
   void Start(const boost::beast::http::request<boost::beast::http::string_body>& request);
   /// Ends all calls and the connection. Call on the server's thread.
   void Close();

@@ -26,7 +26,7 @@ constexpr std::chrono::seconds kPatience{30};       // for a request
 constexpr size_t kMaxBodyBytes = size_t{64} << 20;  // for a project with its song
 constexpr const char* kSocketPath = "/studio";
 constexpr std::string_view kPhotoPath = "/photo/";
-// Browsers enforce this, whatever the page loads.
+// Browsers enforce this policy for everything that the page loads.
 constexpr const char* kPolicy =
     "default-src 'self'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self' 'unsafe-inline'; "
     "img-src 'self' data: blob:; "
@@ -185,7 +185,7 @@ WebServer::WebServer(const std::string& listen, const StudioContext& context)
 WebServer::~WebServer() {
   for (const auto& weak : sockets_)
     if (const auto socket = weak.lock()) socket->Close();
-  leaving_.join();  // while io_ exists, through which they answer
+  leaving_.join();  // while io_ exists, because they answer through it
 }
 
 std::string WebServer::url() const {

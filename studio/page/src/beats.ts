@@ -1,4 +1,5 @@
-// The beats of the song: as found by the program, or as set by the user. Of live music the user says how they are to be heard.
+// The beats of the song: as found by the program, or as set by the user. For live music the user
+// sets how they are detected.
 import { computed, signal } from '@preact/signals';
 import { counted, doubled, halved, nudged, pulseOf, tapped, tempo, withOne } from './counts';
 import type { Beats } from './counts';
@@ -13,7 +14,7 @@ import { live, project, shownSong, tell } from './state';
 const none: Beats = { bar: 4, list: [] };
 const nudge = 0.01; // seconds
 const mostLater = 1; // seconds, of live beats either way
-const pause = 2500; // ms after the last tap, after which they count
+const pause = 2500; // ms after the last tap until the taps are applied
 const longest = 3; // seconds from tap to tap
 const tooFew = 'Tap four beats at least.';
 
@@ -39,7 +40,8 @@ export const form = computed(() => sections(shownSong.value?.heard.passages ?? [
 
 const length = () => shownSong.value!.heard.seconds;
 
-/// Dances to other beats, unless they are slower or faster than half and double time of any tempo that may be asked for. Says whether it does.
+/// Dances to other beats. Returns false, and changes nothing, if they are slower than half or
+/// faster than double any permitted tempo.
 function changeBeats(next: Beats): boolean {
   const [found, least, most] = [tempo(next), limits.slowestTempo / 2, 2 * limits.fastestTempo];
   const isDanced = found >= least && found <= most;
@@ -97,7 +99,7 @@ function applyTaps() {
 }
 audio.addEventListener('pause', applyTaps);
 
-/// Beats of live music are looked for near the taps' tempo.
+/// Sets the taps' tempo, near which beats of live music are detected.
 function tapLive(times: number[]) {
   const pulse = pulseOf(times);
   if (!pulse) return tell(tooFew);

@@ -28,7 +28,7 @@ export class Skeleton {
   readonly offsets: Vector3[];
   readonly height: number;
   readonly feet: number[];
-  /// For each joint the one on the other side.
+  /// For each joint, the corresponding joint on the other side.
   readonly twins: number[];
   private readonly rest: Figure;
 
@@ -59,7 +59,7 @@ export class Skeleton {
       const [x, y, z] = pose.rotations.slice(3 * this.twins[joint], 3 * this.twins[joint] + 3);
       rotations.splice(3 * joint, 3, x, -y, -z);
     }
-    // Mirrored in the world's plane it would face the other way, so turn it back.
+    // Mirroring in the world's plane changes the facing, so turn the body back.
     return turned({ root: pose.root, rotations }, 2 * heading(pose));
   }
 
@@ -68,7 +68,7 @@ export class Skeleton {
     return joints.map((joint) => this.twins[joint]).sort((a, b) => a - b);
   }
 
-  /// Moved vertically until the lowest foot stands as at rest.
+  /// The pose moved vertically until the lowest foot is as high as at rest.
   grounded(pose: Pose): Pose {
     const figure = new Figure(this, pose);
     const drop = Math.min(
@@ -78,7 +78,7 @@ export class Skeleton {
   }
 }
 
-/// The way a body faces on the floor: radians about +Y, 0 is +Z.
+/// A body's facing on the floor: radians about +Y; 0 is +Z.
 export const heading = (pose: Pose) => {
   const forward = new Vector3(0, 0, 1).applyQuaternion(toQuaternion(pose.rotations, 0));
   return Math.atan2(forward.x, forward.z);

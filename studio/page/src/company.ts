@@ -15,7 +15,7 @@ import type { Moment, Song } from './state';
 const beside = 1.4; // metres between a new dancer and the last one
 const behind = 0.4; // metres that a new dancer stands further back
 
-/// A dance with another seed, other keys or style than the project's, and what it was made from.
+/// A dance whose seed, keys or style differ from the project's, and its inputs.
 type Other = { project: Project; song: Song | null; motion: Motion };
 let others: Other[] = [];
 let forming: AbortController | null = null;
@@ -133,7 +133,7 @@ const changeAll = (dancers: Partner[]) => note({ dancers });
 export const changePartner = (nth: number, what: Partial<Partner>) =>
   changeAll(project.value.dancers.map((old, i) => (i === nth ? { ...old, ...what } : old)));
 
-/// Makes the dance of one of them the one that is worked on; the others dance on as they did.
+/// Makes one dancer's dance the edited one; the others keep their dances.
 export function workOnDanceOf(nth: number) {
   const { value } = project;
   const mine = ownProject(value, value.dancers[nth]);

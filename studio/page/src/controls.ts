@@ -1,4 +1,5 @@
-// A project's controls as the API has them, and back: of new dances, transitions and the project's file.
+// Converts a project's controls to the API's and back, for new dances, transitions and the
+// project's file.
 import type { MessageInitShape } from '@bufbuild/protobuf';
 import { BodyPart } from './generated/choreo/v1/choreography_pb';
 import type { Controls, ControlsSchema } from './generated/choreo/v1/choreography_pb';

@@ -26,7 +26,7 @@ export function chosenKeys(): Key[] {
   return isInterval ? keys : keys.filter(({ frame }) => frame < to);
 }
 
-/// The keys to copy: those of the selection, or the selected key if it is not among them.
+/// The keys to copy: the selection's, or the selected key if it is outside the selection.
 function taken(): Key[] {
   const key = keyOf(selectedKey.value);
   const inside = chosenKeys();

@@ -15,7 +15,7 @@ const around = 4; // intervals on either side that tell how long one is
 /// Beats in an eight: two bars, of four or three.
 export const eight = (bar: number) => bar * Math.max(1, Math.floor(8 / bar));
 export const isDownbeat = ({ count }: Beat, bar: number) => count > 0 && (count - 1) % bar === 0;
-/// Beats as the program takes them: seconds, and those that begin an eight.
+/// Beats as sent to the program: seconds, and the ones that begin an eight.
 export type Counts = { beats: number[]; ones: number[] };
 export const countsOf = (beats: Beats): Counts => ({ beats: timesOf(beats), ones: beats.list.filter(({ count }) => count === 1).map(({ time }) => time) });
 /// A time as stored in projects.
@@ -41,7 +41,7 @@ export function counted(times: number[], inBar: number[], bar: number, sure: num
   return { bar: length, list };
 }
 
-/// From beats as they come one after another: a bar lasts from downbeat to downbeat.
+/// Counts live beats in order; a bar lasts from downbeat to downbeat.
 export function countedLive(heard: { time: number; isDown: boolean; sure: number }[]): Beats {
   let at = 0;
   const inBar = heard.map(({ isDown }) => (at = isDown ? 1 : at && at + 1));
@@ -56,7 +56,8 @@ function beatsToNext(times: number[], i: number): number {
   return beats > gap ? Math.round(beats) : 1;
 }
 
-/// Each beat's distance, in beats, from a 1 of its part between pauses. In a part without counts the count goes on by time.
+/// Each beat's distance, in beats, from a 1 of its part between pauses. In a part without counts
+/// the count continues by time.
 function sinceOne({ bar, list }: Beats): number[] {
   const times = timesOf({ bar, list });
   const places = [0];
@@ -126,7 +127,8 @@ export function doubled(beats: Beats): Beats {
   return { bar: beats.bar, list: list.flat() };
 }
 
-/// Moves all beats; keeps those within the song's seconds. Those before the first that is counted are counted back from it.
+/// Moves all beats, and keeps the ones within the song. Beats before the first counted one are
+/// counted back from it.
 export const nudged = ({ bar, list }: Beats, by: number, seconds: number): Beats => {
   const first = Math.max(0, list.findIndex(({ count }) => count > 0));
   const back = (i: number) => ((((list[first].count || 1) - 1 + i - first) % eight(bar)) + eight(bar)) % eight(bar) + 1;

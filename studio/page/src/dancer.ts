@@ -1,4 +1,4 @@
-// From a project to frames, which the program dances: whole dances, and parts of one that are danced anew.
+// Requests frames for a project from the program: whole dances, and parts to dance anew.
 import type { Clip } from './generated/studio/studio_pb';
 import type { ModelInfo } from './generated/choreo/v1/choreography_pb';
 import { Motion } from './motion';
@@ -6,11 +6,11 @@ import { poseMessage, projectMessage } from './project_file';
 import type { Project } from './project';
 import type { Wire } from './wire';
 
-/// What is heard of a dance in progress.
+/// Receives the progress of a dance.
 export type Watch = {
-  /// More of it is there.
+  /// Called when more frames have arrived.
   grown: (motion: Motion) => void;
-  /// For people: of a frame, or of the whole.
+  /// Receives a warning for people, about a frame or the whole dance.
   noted: (text: string, frame?: number) => void;
 };
 
@@ -24,8 +24,8 @@ export class Dancer {
     return Math.max(1, Math.round(project.seconds * this.fps));
   }
 
-  /// Everything behind frame `from` (-1: all of it); what stands before stays. Ends early, with what
-  /// there is by then, once `signal` is aborted.
+  /// Dances all frames after `from` (-1: the whole dance) and keeps the earlier ones. Ends early,
+  /// with the frames so far, if `signal` is aborted.
   stream(project: Project, before: Motion | null, from: number, watch: Watch, signal: AbortSignal): Promise<Motion> {
     const motion = before && from >= 0 ? before.head(from + 1) : this.nothing();
     const poses = motion.poses(motion.count - this.model.historyFrames, motion.count).map((pose) => poseMessage(pose));
@@ -58,8 +58,8 @@ export class Dancer {
     });
   }
 
-  /// The frames between `from` and `to`, both of which stay, through the keys there: `count` motions.
-  /// -1 and the number of frames stand for the beginning and the end.
+  /// Dances `count` motions for the frames between `from` and `to`, through the keys there. Keeps
+  /// both end frames. -1 and the number of frames mean the beginning and the end.
   async between(project: Project, motion: Motion, from: number, to: number, count: number, watch: Watch): Promise<Motion[]> {
     const dance: Clip = motion.toClip();
     const answer = await this.wire.ask({ case: 'retake', value: { project: this.message(project), dance, from: BigInt(from), to: BigInt(to), takes: count } });
@@ -72,7 +72,7 @@ export class Dancer {
     });
   }
 
-  /// Whether one transition can span it.
+  /// Whether one transition can span the interval.
   spans(frames: number) {
     return frames <= this.model.maxTransitionFrames;
   }

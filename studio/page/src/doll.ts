@@ -31,7 +31,7 @@ export class Doll {
     return new Doll(clone(this.scene), this.skeleton);
   }
 
-  /// Makes it a ghost: transparent, in one colour.
+  /// Makes the body a ghost: transparent, in one colour.
   fade(colour: string, opacity: number) {
     const material = new MeshStandardMaterial({ color: new Color(colour), transparent: true, opacity, roughness: 1, depthWrite: false });
     // Shows only the nearest surface, so that no limb shows through another.
@@ -48,7 +48,7 @@ export class Doll {
     return this;
   }
 
-  /// Gives it a shirt of this colour.
+  /// Sets the colour of the shirt.
   wear(colour: string) {
     this.scene.traverse((part) => {
       if (!(part instanceof Mesh) || part.material.name !== shirt) return;
@@ -63,7 +63,8 @@ export class Doll {
     this.bones.forEach((bone, joint) => toQuaternion(pose.rotations, 3 * joint, bone.quaternion));
   }
 
-  /// Takes the pose of a motion at a time, or its mirror image in the plane x = 0; hides if there is none.
+  /// Takes a motion's pose at a time, or its mirror image in the plane x = 0. Hides the body if the
+  /// motion has no pose there.
   follow(motion: Motion, time: number, mirrored = false) {
     if (!motion.sample(time, this.root, this.turns)) return;
     const [x, y, z] = this.root;

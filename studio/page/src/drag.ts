@@ -4,7 +4,8 @@ import type { Marker } from './project';
 import { frameAt, timeUnder } from './scale';
 import * as studio from './studio';
 
-/// Calls `move` until the pointer is let go, or the browser cancels the drag. `events`: captures the pointer, unless it is the window.
+/// Calls `move` until the pointer is released or the browser cancels the drag. `events`: captures
+/// the pointer, unless it is the window.
 export function drag(event: PointerEvent, move: (at: PointerEvent) => void, end: (isDropped: boolean) => void = () => {},
   events: HTMLElement | Window = event.currentTarget as HTMLElement) {
   const listening = new AbortController();
@@ -23,16 +24,18 @@ export function drag(event: PointerEvent, move: (at: PointerEvent) => void, end:
 const slip = 4; // pixels
 
 type FrameDrag = {
-  /// The frame that keeps its distance to the pointer; without it the pointer's own is taken.
+  /// The frame that keeps its distance to the pointer. Without it, the pointer's own frame is used.
   from?: number;
-  /// The marker that is dragged, which attracts nothing.
+  /// The dragged marker, to which nothing snaps.
   marker?: Marker;
   drop: (frame: number) => void;
-  /// Instead of a drop, for a press that slips a little at most; without it every move is a drag.
+  /// Called instead of a drop after a press that moves only slightly. Without it every move is a
+  /// drag.
   press?: () => void;
 };
 
-/// Drags a frame along the timeline, from beat to beat, or freely with Alt. Gives the frame while it is dragged, else null, and what begins it.
+/// Drags a frame along the timeline, from beat to beat, or freely with Alt. Returns the frame
+/// during the drag, otherwise null, and the function that begins a drag.
 export function useFrameDrag({ from, marker, drop, press }: FrameDrag): [number | null, (event: PointerEvent) => void] {
   const [frame, setFrame] = useState<number | null>(null);
   const begin = (event: PointerEvent) => {

@@ -1,16 +1,17 @@
-// How far an edit reaches.
+// The frames that an edit affects.
 import { limits } from './limits';
 import type { Key } from './project';
 
 const end = ({ frame, hold }: Key) => frame + hold;
 
-/// The frames before and after what is danced anew where keys stood or stand at `frames`: the neighbouring keys, where these are near, as in the
-/// program (client/cli/edit_session.cpp). -1 and `count` stand for the beginning and the end.
+/// The frames before and after the part to dance anew when keys at `frames` change: the
+/// neighbouring keys, if near, as in the program (client/cli/edit_session.cpp). -1 and `count` mean
+/// the beginning and the end.
 export function reachOf(before: Key[], after: Key[], frames: number[], count: number, fps: number): [number, number] {
   const first = Math.min(...frames);
   const stay = after.filter(({ frame }) => !frames.includes(frame));
   const previous = stay.findLast(({ frame }) => frame < first);
-  // What was held is no longer, or was not.
+  // A hold has ended or begun.
   const changed = [...before, ...after].filter((key) => frames.includes(key.frame) || (previous && key.frame === previous.frame));
   const last = Math.max(...frames, ...changed.map(end));
   const next = stay.find(({ frame }) => frame > Math.max(...frames));

@@ -15,7 +15,7 @@ import { audio, hear, playSilence, songExtensions, tellOfSong } from './songs';
 import { begin, filming, kept, live, message, moment, opened, project, song, takes, tell, welcome, work } from './state';
 import { timeLeft } from './time_left';
 
-/// A file that is sent.
+/// A file to send.
 type SentFile = { name: string; data: Uint8Array };
 
 const motionExtensions = ['npz', 'npy', 'pkl', 'bvh', 'glb', 'gltf', 'vrma'];
@@ -32,7 +32,7 @@ export const openFiles = (files: File[]) => work(async () => {
   const strange = files.find((file) => ![...songs, ...others, ...photos].includes(file));
   if (strange) throw new Error(`${strange.name} is none of the files that the studio knows: ${accepted.replaceAll(',', ' ')}`);
   if (live.value && photos.length < files.length) throw new Error('Stop the live dance first.');
-  // Dancers of a project may have key files of their own, which come with it.
+  // A project's dancers may have their own key files, which are opened with it.
   const main = others.length > 1 ? await findProject(others) : undefined;
   if (songs.length > 1 || (others.length > 1 && !main) || photos.length > 1)
     throw new Error('One song at a time, one photo, and one project or motion.');
@@ -55,7 +55,7 @@ async function bytesOf(file: File) {
   return new Uint8Array(await file.arrayBuffer());
 }
 
-/// The one file of several that has dancers, if there is one.
+/// The only file among several that has dancers, if any.
 async function findProject(files: File[]) {
   const found: File[] = [];
   for (const file of files)

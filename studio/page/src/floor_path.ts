@@ -1,4 +1,4 @@
-// The path over the floor: drawn on the stage, walked in a part of the dance.
+// The path over the floor, drawn on the stage and followed in a part of the dance.
 import type { Pose } from './body';
 import { total, danceFrom } from './history';
 import { dancer } from './link';
@@ -7,7 +7,7 @@ import { audio } from './songs';
 import { chosen, motion, project, tell } from './state';
 import { signal } from '@preact/signals';
 
-/// Whether the next stroke on the stage draws one.
+/// Whether the next stroke on the stage draws a path.
 export const drawing = signal(false);
 
 const apart = 8; // frames between steps
@@ -20,7 +20,7 @@ const between = (a: Spot, b: Spot, share: number): Spot => ({ x: a.x + (b.x - a.
 
 export const lengthOf = (spots: Spot[]) => spots.slice(1).reduce((sum, spot, i) => sum + away(spots[i], spot), 0);
 
-/// Smooths a trembling hand: each spot moves towards its neighbours.
+/// Smooths a hand-drawn stroke by moving each spot towards its neighbours.
 function smooth(spots: Spot[]): Spot[] {
   let out = spots;
   for (let round = 0; round < 4; ++round)
@@ -45,7 +45,7 @@ function paced(spots: Spot[], from: number, to: number): Step[] {
   return out;
 }
 
-/// The path's place at a frame; null outside the path.
+/// The position on the path at a frame; null outside the path.
 export function spotAt(path: Step[], frame: number): Spot | null {
   const next = path.findIndex((step) => step.frame >= frame);
   if (next < 0 || (next === 0 && path[0].frame > frame)) return null;
@@ -77,7 +77,8 @@ function put(path: Step[], touched: number[]) {
   danceFrom({ ...project.value, path, keys }, from);
 }
 
-/// Takes a stroke as the path, moved to begin where the dancer is: walking to another place first would not be dancing.
+/// Uses a stroke as the path. Moves it to begin at the dancer, who would otherwise first walk
+/// there.
 export function drawPath(stroke: Spot[]) {
   drawing.value = false;
   const [from, to] = stretch();
@@ -87,7 +88,7 @@ export function drawPath(stroke: Spot[]) {
   walk(spots, from, to);
 }
 
-/// Takes these spots as the path, at constant speed between two frames.
+/// Uses these spots as the path, at constant speed between two frames.
 export function walk(spots: Spot[], from: number, to: number) {
   put(paced(spots, from, to), [from, project.value.path[0]?.frame ?? from]);
 }

@@ -1,4 +1,5 @@
-// How dances follow music: how much its energy moves them, and how much they differ where it repeats.
+// How dances follow music: how strongly its energy affects them, and how much they vary where it
+// repeats.
 import { computed, signal } from '@preact/signals';
 import { change, note } from './history';
 import { limits } from './limits';
@@ -9,7 +10,7 @@ type Following = Pick<Project, 'dynamics' | 'variation'>;
 
 const wished = signal<Partial<Following>>({});
 
-/// That of the present dance, else of the first one.
+/// The setting of the present dance or, without one, of the first dance.
 export const following = computed((): Following => {
   const { dynamics, variation } = project.value ?? { dynamics: limits.usualMusicDynamics, variation: limits.usualVariation, ...wished.value };
   return { dynamics, variation };

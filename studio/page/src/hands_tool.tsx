@@ -1,4 +1,4 @@
-// What hands do at the chosen key, on characters with fingers.
+// The hand pose at the selected key, for characters with fingers.
 import { handPoses } from './project';
 import type { Hands, Key } from './project';
 import * as studio from './studio';

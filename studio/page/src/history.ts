@@ -1,4 +1,4 @@
-// The dance as it was and is: each change is a moment, whose motion is danced while it is watched.
+// The dance's history. Each change is a moment, whose motion is danced while it is watched.
 import { computed, signal } from '@preact/signals';
 import type { Signal } from '@preact/signals';
 import { reachOf } from './edit_reach';
@@ -11,13 +11,13 @@ import { busy, chosen, complain, danced, live, moment, moments, motion, present,
 import type { Make, Moment, Warning } from './state';
 
 const mostMoments = 60;
-/// So many frames after an interval must be there before it alone is danced anew.
+/// The number of frames that must exist after an interval before it alone is danced anew.
 const lead = 30;
 
-/// Frames of the whole dance.
+/// The number of frames of the whole dance.
 export const total = computed(() => (project.value && dancer ? dancer.frames(project.value) : 0));
 
-/// What is shown at a time.
+/// The motion shown at a time.
 export const motionAt = (time: number) => {
   if (live.value) return live.value.motion;
   const { value } = moment;
@@ -25,13 +25,13 @@ export const motionAt = (time: number) => {
   return isThere ? motion.value : value.before;
 };
 
-/// Notes warnings where they belong; the rest is told.
+/// Records warnings at their frames, and shows the others as messages.
 const noted = (list: Signal<Warning[]>) => (text: string, frame?: number) => {
   if (frame === undefined) return tell(text);
   if (!list.value.some((known) => known.frame === frame && known.text === text)) list.value = [...list.value, { frame, text }];
 };
 
-/// Gives a moment its motion; until that is there, what `make` shows is seen.
+/// Makes a moment's motion. Until it is complete, the page shows the frames that `make` has so far.
 function fill(filled: Moment, make: Make) {
   const show = (grown: Motion) => {
     filled.motion.value = grown;
@@ -52,7 +52,7 @@ function fill(filled: Moment, make: Make) {
     });
 }
 
-/// A moment's motion once it is there; what could not be made is tried again.
+/// Waits for a moment's motion. Retries one that failed.
 export async function made(of: Moment): Promise<Motion> {
   if (of.unmade) fill(of, of.unmade);
   const there = await of.ready;
@@ -60,7 +60,7 @@ export async function made(of: Moment): Promise<Motion> {
   return there;
 }
 
-/// A new moment after the present one, in place of those that were undone.
+/// Adds a moment after the present one, and drops undone ones.
 export function push(next: Project, shown: Motion, make: Make, known: Warning[] = []) {
   takes.value = [];
   chosen.value = null;
@@ -83,7 +83,7 @@ export function push(next: Project, shown: Motion, make: Make, known: Warning[] 
 
 let streaming: AbortController | null = null;
 
-/// One dance streams at a time: the one that began last.
+/// Starts streaming a dance, and ends the previous stream: only one dance streams at a time.
 export function stream(): AbortController {
   streaming?.abort();
   streaming = new AbortController();
@@ -105,7 +105,7 @@ export function danceFrom(next: Project, from: number) {
   push(next, from >= 0 ? before.head(from + 1) : before, streamFrom(next, before, from), stay);
 }
 
-/// Changes the project and dances what it touches, `frames`, anew, with what is around them.
+/// Changes the project, and dances anew the frames around the changed `frames`.
 export function edit(next: Project, frames: number[]) {
   const before = moment.value;
   next = { ...next, keys: trimmed(next.keys, dancer.frames(next), dancer.fps) };
@@ -120,10 +120,10 @@ export function edit(next: Project, frames: number[]) {
   }, stay);
 }
 
-/// Changes what all of the dance depends on.
+/// Changes settings on which the whole dance depends.
 export const change = (what: Partial<Project>) => danceFrom({ ...project.value, ...what }, -1);
 
-/// Changes what no frame depends on.
+/// Changes settings on which no frame depends.
 export function note(what: Partial<Project>) {
   const before = moment.value;
   push({ ...project.value, ...what }, before.motion.value, () => made(before), warnings.value);
@@ -147,7 +147,7 @@ function step(by: number) {
   });
 }
 
-/// A dance that was left before its end goes on.
+/// Continues a dance that was left unfinished.
 export function finish(left: Moment) {
   if (!left.isReady) return;
   const there = left.motion.value;

@@ -1,4 +1,5 @@
-// How hard the chosen key is hit: danced through, or rested in, from gently to late and fast.
+// How hard the selected key is hit: danced through, or held after an arrival from gentle to late
+// and fast.
 import { limits } from './limits';
 import type { Key } from './project';
 import * as studio from './studio';

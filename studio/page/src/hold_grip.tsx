@@ -1,4 +1,5 @@
-// How long the chosen key's pose is kept: its end is pulled on the timeline, or moved by arrow keys.
+// How long the selected key's pose is held: its end is dragged on the timeline or moved by arrow
+// keys.
 import { useFrameDrag } from './drag';
 import { limits } from './limits';
 import type { Key } from './project';

@@ -1,4 +1,4 @@
-// Joint angles in degrees. The program tells the meaning and range of a joint's numbers.
+// Joint angles in degrees. The program sends the meaning and range of a joint's numbers.
 import { Euler, Quaternion, Vector3 } from 'three';
 import { toQuaternion, toVector } from './body';
 import type { Pose } from './body';

@@ -1,4 +1,4 @@
-// Key poses: set, moved, bent, removed.
+// Sets, moves, edits and removes key poses.
 import { computed, signal } from '@preact/signals';
 import { heading, only, turned } from './body';
 import type { Pose, Triple } from './body';
@@ -17,16 +17,16 @@ import { audio } from './songs';
 import { complain, danced, live, message, moment, motion, project, selectedKey, sketch, song, tell, work } from './state';
 import type { Moment } from './state';
 
-const reach = 15; // frames within which a key that finds its place taken looks for another
+const reach = 15; // frames within which a key looks for another place if its own is taken
 
-/// Whether a pose that is set at one frame takes the place of a key at the other.
+/// Whether a pose set at one frame replaces a key at the other.
 export const isTooNear = (a: number, b: number) => Math.abs(a - b) < limits.tooNearS * dancer.fps;
 
-/// Key poses of the library on the song's beats: a dance to begin with.
+/// Key poses from the library on the song's beats, as a first dance.
 export async function compose() {
   const seconds = song.value?.heard.seconds ?? 20;
   const seed = Math.max(1, (project.value?.seed ?? 0) + 1);
-  // Of the same song, not of one by the same name.
+  // For the same song, not one of the same name.
   const beats = (moment.value?.song === song.value && project.value?.beats) || null;
   const answer = await wire.ask({ case: 'compose', value: { seconds, seed: BigInt(seed), beats: beats?.list.map(({ time }) => time) } });
   if (answer.case !== 'keyframes') return;
@@ -41,7 +41,7 @@ export async function compose() {
   danceFrom({ ...empty, ...wished, dancers: before.dancers, apart: before.apart, beats, markers, seed, keys: named.map((key) => onPath(wished.path, key)) }, -1);
 }
 
-/// The nearest frame to a wanted one at which a key can stand; null if there is none near.
+/// The free frame nearest to a wanted one; null if none is near.
 export function freeFrame(keys: Key[], frame: number): number | null {
   const most = dancer.frames(project.value) - 1;
   for (let away = 0; away < reach; ++away) {
@@ -52,15 +52,15 @@ export function freeFrame(keys: Key[], frame: number): number | null {
   return null;
 }
 
-/// The key in whose place a pose comes that is set at a frame: the nearest, where one is as good as there.
+/// The key that a pose set at a frame would replace: the nearest, if it is close enough.
 export function keyNear(frame: number): Key | undefined {
   const away = (key: Key) => Math.abs(key.frame - frame);
   const near = live.value ? [] : project.value?.keys.filter((key) => isTooNear(key.frame, frame)) ?? [];
   return near.sort((a, b) => away(a) - away(b))[0];
 }
 
-/// Sets a pose of the library at the dancer's place and facing of that moment. It replaces a key that is too near.
-/// In a live dance the pose goes on a beat ahead, or at `at`.
+/// Sets a pose of the library at the dancer's present place and facing. Replaces a key that is too
+/// near. In a live dance the pose is set on a coming beat, or at `at`.
 export function addKey(pose: LibraryPose, at?: number) {
   if (!project.value) return;
   if (live.value) return addLiveKey(pose, at ?? null);
@@ -83,7 +83,7 @@ export function addKey(pose: LibraryPose, at?: number) {
   if (old) tell(`${spoken(key.id)} stands in place of ${spoken(old.id)} now. Undo brings that back.`);
 }
 
-/// Says that a hold ends for a key that comes in it.
+/// Reports that a hold ends early because a key follows within it.
 function tellOfHold(others: Key[], key: Key) {
   const held = others.find((other) => isInHold(other, key.frame));
   if (held) tell(`${spoken(held.id)} is held no longer than to ${limits.wayFromHoldS} s before ${spoken(key.id)}.`);
@@ -104,7 +104,8 @@ export function moveKey(id: string, to: number) {
   if (near) tell(`${spoken(key.id)} stands ${(Math.abs(near.frame - frame) / dancer.fps).toFixed(2)} s from ${spoken(near.id)}: too near to be danced well.`);
 }
 
-/// Keeps its pose for so many frames, in steps of those that hold it. The program refuses what cannot be held.
+/// Sets for how many frames a key's pose is held, in whole steps. The program refuses poses that
+/// cannot be held.
 export const holdKey = (id: string, frames: number) => work(async () => {
   const key = keyOf(id);
   if (!key || live.value) return;
@@ -115,13 +116,13 @@ export const holdKey = (id: string, frames: number) => work(async () => {
   if (project.value === before) edit(next, [key.frame]);
 });
 
-/// How hard it is hit; null: it is danced through.
+/// Sets how hard a key is hit; null: it is danced through.
 export function hitKey(id: string, hit: number | null) {
   const key = keyOf(id);
   if (key && key.hit !== hit) edit({ ...project.value, keys: project.value.keys.map((other) => (other === key ? { ...key, hit } : other)) }, [key.frame]);
 }
 
-/// What hands do at it; null: nothing is said. No frame depends on it.
+/// Sets a key's hand pose; null: none. No frame depends on it.
 export function handKey(id: string, hands: Hands | null) {
   const key = keyOf(id);
   if (key && key.hands !== hands) note({ keys: project.value.keys.map((other) => (other === key ? { ...key, hands } : other)) });
@@ -135,7 +136,7 @@ export function removeKey(id: string) {
   edit({ ...project.value, keys: project.value.keys.filter((other) => other !== key) }, [key.frame]);
 }
 
-/// A key's pose as it is shown: what it leaves free is as it is danced.
+/// A key's pose as displayed; joints that it leaves free are as danced.
 function shown(key: Key): Pose {
   if (key.hasPlace && !key.asks) return key.pose;
   const dance = motion.value.count > key.frame || danced.value > key.frame ? motion.value : moment.value.before;
@@ -147,7 +148,8 @@ function shown(key: Key): Pose {
 
 const isSame = (a: Triple, b: Triple) => a.every((value, i) => Math.abs(value - b[i]) < 1e-6);
 
-/// Another pose for a key. One without a place gets one where the body was moved, unless it leaves the hips free.
+/// Sets another pose for a key. A key without a place gets one if the body was moved, unless it
+/// leaves the hips free.
 export function poseKey(id: string, pose: Pose, asks?: number[] | null) {
   const key = keyOf(id);
   if (!key) return;
@@ -157,7 +159,7 @@ export function poseKey(id: string, pose: Pose, asks?: number[] | null) {
   edit({ ...project.value, keys: project.value.keys.map((other) => (other === key ? posed : other)) }, [key.frame]);
 }
 
-/// A pose that changes step by step: it is shown at once, and danced once the hand rests.
+/// Changes a pose step by step. Shows each step at once, and dances it after a pause.
 const draft = signal<{ id: string; pose: Pose; of: Moment } | null>(null);
 const rest = 400; // ms
 let resting: ReturnType<typeof setTimeout>;
@@ -168,7 +170,7 @@ const shownKey = computed(() => {
   return key && shown(key);
 });
 
-/// The pose that is bent, where there is one: the photo's, or the chosen key's.
+/// The pose being edited, if any: the photo's, or the selected key's.
 export const bent = () => sketch.value?.pose ?? shownKey.value;
 
 export function bend(pose: Pose) {
@@ -188,7 +190,7 @@ export function bendSoon(pose: Pose) {
   }, rest);
 }
 
-/// Left becomes right, and the joints that a key asks for with it.
+/// Mirrors the pose, and the set of joints that a key fixes.
 export function mirror() {
   const now = bent()!;
   const key = sketch.value ? undefined : keyOf(selectedKey.value);
@@ -197,14 +199,14 @@ export function mirror() {
   else bend(only(now, turnedOver, movable.value));
 }
 
-/// Takes a pose of the library where the body stands; of the parts that are worked on, where these are not all.
+/// Uses a pose of the library at the body's place; only its edited parts, unless these are all.
 export function takeFrom({ pose }: LibraryPose) {
   const now = bent()!;
   const from = turned({ root: [now.root[0], pose!.rootPosition!.y, now.root[2]], rotations: pose!.rotations }, heading(now));
   bend(only(now, from, movable.value));
 }
 
-/// Works on a part of the body, or no more. A partial key asks for it then, or no more.
+/// Starts or stops editing a part of the body. A partial key then fixes or frees that part.
 export function workOn(part: number, isOn: boolean) {
   const key = sketch.value ? undefined : keyOf(selectedKey.value);
   const chosen = (key?.asks ? partsOf(key.asks) : worked.value).map((old, i) => (i === part ? isOn : old));
@@ -213,13 +215,13 @@ export function workOn(part: number, isOn: boolean) {
   if (key?.asks) ask(key, withPart(key.asks, part, isOn));
 }
 
-/// Makes a key ask for the parts that are worked on alone, or for the whole body.
+/// Makes a key fix only the edited parts, or the whole body.
 export function askForParts(id: string, isPartial: boolean) {
   const key = keyOf(id);
   if (key) ask(key, isPartial ? jointsOf(worked.value) : null);
 }
 
-/// A key that leaves the hips free does not say where they are; the whole body stands where it was.
+/// A key that leaves the hips free has no place. The whole body keeps its place.
 function ask(key: Key, asks: number[] | null) {
   const changed = { ...key, pose: shown(key), asks, hasPlace: !asks || (key.hasPlace && asks.includes(0)) };
   edit({ ...project.value, keys: project.value.keys.map((other) => (other === key ? changed : other)) }, [key.frame]);

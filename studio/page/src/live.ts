@@ -1,4 +1,4 @@
-// Live: the dance to the microphone, while it sounds. Afterwards what was heard is the song, and the dance stays.
+// The live dance to the microphone. Afterwards the recording is the song, and the dance is kept.
 import { signal } from '@preact/signals';
 import { AudioEncoding } from './generated/choreo/v1/choreography_pb';
 import type { LibraryPose } from './generated/studio/studio_pb';
@@ -21,11 +21,11 @@ import { chosen, complain, isConnected, live, message, moment, selectedKey, take
 import type { Live, LiveHint } from './state';
 import { wav } from './wav';
 
-const lookAhead = 0.3; // seconds: what is nearer is danced already
-const ahead = 1; // seconds until a pose that is pressed, at least
+const lookAhead = 0.3; // seconds; nearer frames are already danced
+const ahead = 1; // seconds; least time until a requested pose
 const spare = 0.07; // seconds for a piece of sound, and the way to the program and back
 const lastWait = 10000; // ms for the end of the dance
-const unheard = 10; // seconds of the longest song that nobody plays live
+const unheard = 10; // seconds; live music ends this long before the longest song
 const name = 'microphone.wav';
 
 let call = 0;
@@ -33,13 +33,13 @@ let microphone: Microphone | null = null;
 let pieces: Float32Array[] = [];
 let samples = 0;
 let rate = 48000;
-let last = 0; // when the last piece came, ms
+let last = 0; // arrival of the last piece, ms
 let granted = 0;
 let latency = 0; // seconds of music that the model hears ahead
 let ended: (() => void) | null = null;
 let isLost = false; // the call, before its end
 
-/// How loud it is, 0 to 1.
+/// The sound's level, 0 to 1.
 export const level = signal(0);
 
 const say = (value: Extract<Parameters<typeof wire.say>[1], { case: 'live' }>['value']) => wire.say(call, { case: 'live', value });
@@ -47,10 +47,10 @@ const say = (value: Extract<Parameters<typeof wire.say>[1], { case: 'live' }>['v
 const heardSeconds = () => samples / rate;
 const sinceLast = () => Math.min(0.05, (performance.now() - last) / 1000);
 
-/// The second of the music that sounds now.
+/// The current second of the music.
 export const soundingNow = () => heardSeconds() + sinceLast();
 
-/// Where we are: in the song, or in what the microphone hears, so far behind it that the frames are there.
+/// The playback position: in the song, or far enough behind the microphone that the frames exist.
 export function now(): number {
   if (!live.value) return audio.currentTime;
   if (samples === 0) return 0;
@@ -62,10 +62,10 @@ const update = (what: Partial<Live>) => {
 };
 
 const asHeard: LiveHint = { tempo: null, pace: null, later: 0, one: null };
-/// Whether beats are danced to as they were heard.
+/// Whether the dance uses the beats as detected.
 export const isAsHeard = () => Object.entries(asHeard).every(([name, value]) => live.value?.hint[name as keyof LiveHint] === value);
 
-/// How beats are heard from now on; without anything as they come.
+/// Sets how beats are detected from now on; as they come without an argument.
 export function hintLive(change?: Partial<LiveHint>) {
   if (!live.value) return;
   const hint = change ? { ...live.value.hint, ...change } : asHeard;
@@ -119,7 +119,7 @@ function hearOf(part: Part, motion: Motion) {
   }
 }
 
-/// A piece of what sounds: what may be danced, then the sound itself.
+/// Sends a piece of sound: first the grant of frames, then the sound.
 function take(piece: Float32Array) {
   if (!live.value || !microphone) return;
   pieces.push(piece);
@@ -134,7 +134,7 @@ function take(piece: Float32Array) {
   if (heardSeconds() > limits.songS - unheard) void stopLive();
 }
 
-/// Lets go of the microphone: what it heard is the song from now on, and the dance to it stays.
+/// Releases the microphone. Its recording becomes the song, and the dance to it is kept.
 export const stopLive = () => work(async () => {
   if (!microphone || !live.value) return;
   microphone.stop();
@@ -169,7 +169,7 @@ export const stopLive = () => work(async () => {
     : 'The dance ended early; what came of it stays.');
 });
 
-/// The program may be on its way back.
+/// The program may be restarting.
 async function connected() {
   for (let i = 0; i < 120 && !isConnected.value; ++i) await new Promise((resolve) => setTimeout(resolve, 500));
 }
@@ -177,7 +177,7 @@ async function connected() {
 const keep = (keys: Key[]) => update({ project: { ...live.value!.project, keys: sorted(keys) } });
 const earliest = () => granted + 3;
 
-/// Asks for a pose: at a frame, or on a beat that comes soon. Wherever the dancer is then.
+/// Requests a pose at a frame or on a coming beat, wherever the dancer is then.
 export function addLiveKey(pose: LibraryPose, wanted: number | null) {
   const { keys } = live.value!.project;
   const soon = heardSeconds() + ahead;
@@ -189,7 +189,7 @@ export function addLiveKey(pose: LibraryPose, wanted: number | null) {
   keep([...keys, key]);
 }
 
-/// A key that is still ahead goes to another frame, or away where `to` is null.
+/// Moves a future key to another frame; removes it if `to` is null.
 export function changeLiveKey(id: string, to: number | null) {
   const { keys } = live.value!.project;
   const key = keys.find((some) => some.id === id);

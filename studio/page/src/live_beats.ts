@@ -1,4 +1,4 @@
-// The beats of a live dance: those that were heard, and those that should follow.
+// The beats of a live dance: detected ones, and predicted ones.
 import { computed } from '@preact/signals';
 import { countedLive, eight } from './counts';
 import type { Beat, Beats } from './counts';
@@ -8,7 +8,7 @@ export const shownAhead = 8; // seconds of the timeline after now
 
 const heard = computed(() => countedLive(live.value?.beats ?? []));
 
-/// Beats to come, as those that were heard go on.
+/// Future beats, extrapolated from the detected ones.
 const coming = computed((): Beat[] => {
   const { bar, list } = heard.value;
   if (list.length < 3) return [];
@@ -22,5 +22,5 @@ const coming = computed((): Beat[] => {
 
 export const liveBeats = computed((): Beats => ({ bar: heard.value.bar, list: [...heard.value.list, ...coming.value] }));
 
-/// The first beat to come at or after a second; the second itself without any.
+/// The first future beat at or after a second; the second itself if there is none.
 export const beatAfter = (seconds: number) => coming.value.find(({ time }) => time >= seconds)?.time ?? seconds;

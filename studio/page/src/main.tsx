@@ -4,7 +4,7 @@ import { Figure } from './body';
 import type { Pose } from './body';
 import * as studio from './studio';
 
-/// Where a joint of a pose is in the world, metres.
+/// The world position of a pose's joint, metres.
 const place = (pose: Pose, joint: string) =>
   new Figure(studio.skeleton, pose).places[studio.skeleton.find(joint)].toArray();
 

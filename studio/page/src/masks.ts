@@ -20,7 +20,7 @@ export function withPart(chosen: number[], part: number, isOn: boolean): number[
 export const jointsOf = (chosen: boolean[]): number[] | null =>
   chosen.every(Boolean) ? null : joints().filter((joint) => chosen[partOf(joint)]);
 
-/// Which parts have one of these joints.
+/// For each part, whether it has one of these joints.
 export const partsOf = (chosen: number[] | null): boolean[] => parts.map((_, part) => !chosen || chosen.some((joint) => partOf(joint) === part));
 
 /// Text: "left arm, right arm"; names joints of incomplete parts.

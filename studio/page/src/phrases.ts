@@ -31,7 +31,7 @@ export function choosePhrase(a: number, b: number) {
 
 export const chooseAll = () => choosePhrase(0, total.value);
 
-/// Chooses the eight in which the playhead is.
+/// Selects the eight at the playhead.
 export function chooseEight() {
   const now = audio.currentTime + 0.5 / dancer.fps;
   const ones = beats.value.list.filter(({ count }) => count === 1).map(({ time }) => time);
@@ -117,8 +117,8 @@ export function repeatPhrase(withAnotherEnding = false) {
   tellLeftOut(keys.length - set.length, keys.length);
 }
 
-/// The keys of the phrase so many times as far from its beginning, in counts: 2 is half time, 0.5 double time. Keys that stand where they
-/// come make way.
+/// Stretches the phrase's keys about its beginning, in counts: 2 is half time, 0.5 double time.
+/// Removes keys at their new places.
 export function stretchPhrase(times: number) {
   const keys = chosenKeys();
   if (keys.length === 0) return;

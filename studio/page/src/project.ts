@@ -8,13 +8,14 @@ export type Spot = { x: number; z: number };
 /// A point of a path at a frame. A path has at least two, in order of time.
 export type Step = Spot & { frame: number };
 
-/// What hands do, on characters with fingers (kHandPoseNames of the program, HandPose of its messages).
+/// Hand poses, for characters with fingers (the program's kHandPoseNames, its messages' HandPose).
 export const handPoses = ['rest', 'relaxed', 'open', 'fist', 'point'] as const;
 export type Hands = (typeof handPoses)[number];
 
-/// A key pose. Without a place it asks for the pose alone, wherever the dancer is. `asks`: the joints that it asks for, in order; null:
-/// all of them. `hold`: frames for which its pose is kept. `hit`: how hard it is hit, 0 to `limits.hit`; null: it is danced through. `hands`: null: nothing is
-/// said, they go on to the next key that does.
+/// A key pose. Without a place it fixes only the pose, wherever the dancer is. `asks`: the joints
+/// that it fixes, in order; null: all. `hold`: frames for which its pose is held. `hit`: how hard
+/// it is hit, 0 to `limits.hit`; null: it is danced through. `hands`: null: unset; hands move on to
+/// the next key that sets them.
 export type Key = { id: string; frame: number; pose: Pose; hasPlace: boolean; asks: number[] | null; hold: number; hit: number | null; hands: Hands | null };
 
 /// A named moment.
@@ -22,7 +23,7 @@ export type Marker = { frame: number; name: string };
 
 export const parts = ['trunk', 'left arm', 'right arm', 'left leg', 'right leg'];
 
-/// One of several dancers, with the settings in which she differs.
+/// One of several dancers, with the settings that differ from the project's.
 export type Partner = Spot & {
   id: string;
   /// The rotation of her dance, degrees.
@@ -85,17 +86,18 @@ export const emptyProject = (song: string, seconds: number): Project => ({
 
 export const sorted = (keys: Key[]) => [...keys].sort((a, b) => a.frame - b.frame);
 
-/// The nearest time, in frames, for which a pose can be held: whole steps, rounded down.
+/// The time, in frames, for which a pose can be held: rounded down to whole steps.
 export function holdOf(frames: number, fps: number) {
   const step = limits.holdStepS * fps;
   return Math.round(Math.max(0, Math.floor(frames / step + 1e-9)) * step);
 }
 
-/// Whether a key comes while another one is held.
+/// Whether a key follows while another one is held.
 export const isInHold = (key: Key, frame: number) => key.hold > 0 && key.frame < frame && frame <= key.frame + key.hold;
 
-/// The keys. None is held until the next one, or past the last frame; one that would be held over the next ends in time for the way there, as in the
-/// program (client/authoring/dance_keys.cpp). What is held to the last frame is held to just that one.
+/// The keys, with shortened holds. No hold lasts until the next key or past the last frame. A hold
+/// that would overlap the next key ends early enough for the transition to it, as in the program
+/// (client/authoring/dance_keys.cpp). A hold to the dance's end ends exactly on the last frame.
 export const trimmed = (keys: Key[], frames: number, fps: number) =>
   keys.map((key, i) => {
     const next = keys[i + 1]?.frame ?? Infinity;
@@ -109,7 +111,7 @@ export const trimmed = (keys: Key[], frames: number, fps: number) =>
 /// An id or a joint's name, for people.
 export const spoken = (name: string) => name.replaceAll('_', ' ');
 
-/// A name that is none of these: "kick", "kick-2", ...
+/// An unused name: "kick", "kick-2", ...
 export const freeName = (names: string[], name: string) => {
   const base = name.replace(/-\d+$/, '');
   let free = base;
@@ -118,7 +120,7 @@ export const freeName = (names: string[], name: string) => {
 };
 export const freeId = (keys: Key[], name: string) => freeName(keys.map(({ id }) => id), name);
 
-/// The markers with `next` in place of `old`; null where another one stands at its frame.
+/// The markers with `next` in place of `old`; null if another marker has its frame.
 export function withMarker(markers: Marker[], old: Marker | null, next: Marker | null): Marker[] | null {
   const others = markers.filter((marker) => marker !== old);
   if (!next) return others;

@@ -1,4 +1,5 @@
-// A project as the program's message, which alone reads and writes its file: `choreo dance --project FILE` dances it.
+// Converts a project to the program's message and back. Only the program reads and writes project
+// files; `choreo dance --project FILE` dances one.
 import type { MessageInitShape } from '@bufbuild/protobuf';
 import type { Pose } from './body';
 import type { Keyframe, KeyframeSchema } from './generated/choreo/v1/choreography_pb';
@@ -20,7 +21,7 @@ export const keyMessage = (key: Key): MessageInitShape<typeof KeyframeSchema> =>
   hands: key.hands ? handPoses.indexOf(key.hands) + 1 : 0,
 });
 
-/// The other way round. `height`: of the hips where the key does not say where they are.
+/// Converts a key from its message. `height`: that of the hips if the key has no place.
 export function readKey({ id, when, pose, mask, hit, hands }: Keyframe, fps: number, height: number): Key {
   const root = pose!.rootPosition;
   return {
@@ -35,7 +36,7 @@ export function readKey({ id, when, pose, mask, hit, hands }: Keyframe, fps: num
   };
 }
 
-/// The dancers of a project; with keys of their own as `said`.
+/// A project's dancers, with their own keys as given in `said`.
 export const dancersMessage = ({ dancers, apart }: Project, said?: (keys: Key[]) => MessageInitShape<typeof ProjectSchema>['keys']) => ({
   dancers: dancers.map(({ keys, seed, ...rest }) => ({ ...rest, seed: seed === null ? undefined : BigInt(seed), hasKeys: !!(said && keys), keys: (keys && said?.(keys)) ?? [] })),
   apart,
@@ -53,7 +54,7 @@ export function projectMessage(project: Project, fps: number): MessageInitShape<
   };
 }
 
-/// `height`: of the hips where a key does not say where they are.
+/// `height`: that of the hips if a key has no place.
 export function readProject(said: Message, fps: number, height: number): Project {
   const keysOf = (keys: ProjectKey[]) => keys.map(({ key, hold }): Key => ({ ...readKey(key!, fps, height), hold: Number(hold) }));
   const partner = ({ id, x, z, facing, mirrored, after, inCounts, seed, style, hasKeys, keys }: StageDancer): Partner => ({

@@ -34,14 +34,15 @@ export const frameAt = (time: number, isFree: boolean, moved?: Marker) => (isFre
 
 export const zoomTo = (pixels: number) => (zoom.value = Math.min(200, Math.max(8, pixels)));
 
-/// As large as fits what is between two frames.
+/// Zooms in as far as two frames and everything between them still fit.
 export function show(from: number, to: number) {
   const view = content.value!.parentElement!;
   zoomTo(((view.clientWidth - 2 * edge) * studio.dancer.fps) / (to - from));
   requestAnimationFrame(() => (view.scrollLeft = x(from / studio.dancer.fps) - edge));
 }
 
-/// The frame of the next beat on either side, or half a second away; by single frames where these are asked for.
+/// The frame of the next beat on either side, or half a second away; the next frame if single
+/// frames are requested.
 export function stepped(frame: number, way: 1 | -1, byFrames: boolean): number {
   if (byFrames) return frame + way;
   const frames = beatTimes().map((beat) => Math.round(beat * studio.dancer.fps));

@@ -13,7 +13,7 @@ const types: Record<string, string> = {
 };
 export const songExtensions = Object.keys(types);
 
-/// Makes it the played song.
+/// Makes a song the played one.
 export function takeSong(name: string, bytes: Uint8Array, heard: SongHeard) {
   const type = types[name.split('.').at(-1)!.toLowerCase()] ?? '';
   play({ name, bytes, heard, url: URL.createObjectURL(new Blob([bytes as BlobPart], { type })) });

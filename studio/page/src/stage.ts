@@ -42,7 +42,7 @@ export class Stage {
   private readonly line = new FloorLine();
   private posing: Pose | null = null;
   private grabbed: { handle: Handle; plane: THREE.Plane; from: Pose; offset: THREE.Vector3 } | null = null;
-  /// The most that the sound advanced while a picture was made, seconds, during the last playback.
+  /// The longest time, in seconds of sound, that a picture took during the last playback.
   lateness = 0;
 
   private readonly middle = new THREE.Vector3(); // of all dancers

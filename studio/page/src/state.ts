@@ -28,8 +28,8 @@ export type Song = { name: string; url: string; bytes: Uint8Array; heard: SongHe
 export type Photo = { url: string; width: number; height: number; marks: { x: number; y: number; visibility: number }[] };
 /// A pose from a photo that is not a key yet.
 export type Sketch = { id: string; pose: Pose; photo: Photo };
-/// How the beats of live music are to be heard. `tempo`: about so many a minute; `pace`: half or double of them; `later`: seconds by which
-/// they are; `one`: a second at which a bar began.
+/// How to detect the beats of live music. `tempo`: the approximate tempo, per minute; `pace`: half
+/// or double tempo; `later`: the beats' delay, seconds; `one`: a second at which a bar began.
 export type LiveHint = { tempo: number | null; pace: 'half' | 'double' | null; later: number; one: number | null };
 /// A live dance in progress; `beats`: those heard, seconds.
 export type Live = { project: Project; motion: Motion; beats: { time: number; isDown: boolean; sure: number }[]; hint: LiveHint };
@@ -75,7 +75,7 @@ export async function begin(body: () => Promise<void>) {
 }
 
 export const tell = (text: string) => (message.value = { text, isError: false });
-/// The name of what was opened, and problems of its file.
+/// The opened file's name and problems.
 export const opened = (name: string, what: string, notes: string[]) => [`${name}: ${what}.`, ...notes.map((note) => `Note: ${note}.`)].join(' ');
 export const complain = (error: unknown) =>
   (message.value = { text: error instanceof Error ? error.message : String(error), isError: true });

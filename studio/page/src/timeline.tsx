@@ -77,7 +77,7 @@ function Sections() {
   ));
 }
 
-/// Keys that the music suggests: pressed, they are set.
+/// Keys that the music suggests; a press sets them.
 function Suggestions() {
   return studio.suggested.value.map(({ time, pose }) => {
     const known = studio.welcome.value!.poses.find(({ id }) => id === pose);

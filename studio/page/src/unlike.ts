@@ -1,4 +1,4 @@
-// Measures where and how much several motions differ.
+// Measures where several motions differ, and by how much.
 import { Quaternion } from 'three';
 import { toQuaternion } from './body';
 import type { Motion } from './motion';
