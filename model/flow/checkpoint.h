@@ -8,9 +8,9 @@
 #include "model/core/safetensors.h"
 #include "model/flow/checkpoint_file.h"
 
-/// Checkpoints: safetensors with everything that dancing needs (weights, configuration, skeleton,
-/// normalisation) and the model card (data, terms, training command, figures), guarded by a content
-/// hash. This is the part that all networks share.
+/// Checkpoints: safetensors files with everything needed to dance (weights, configuration,
+/// skeleton, normalisation) and the model card (data, terms, training command, figures), protected
+/// by a content hash. This header has the part shared by all networks.
 namespace choreo {
 
 template <typename Model>
@@ -20,18 +20,18 @@ struct CheckpointOf {
   std::string hash;      ///< 128-bit content hash, hex
 };
 
-/// Saves one tensor by name, and loads it into one of its shape.
+/// Saves one tensor by name, or loads it into a tensor of its shape.
 void ExportTensor(const std::string& name, const torch::Tensor& value, Safetensors* content);
 void ImportTensor(const Safetensors& content, const std::string& name, torch::Tensor value);
-/// Saves parameters and buffers by name, and loads them. `prefix` separates several modules in one
+/// Saves parameters and buffers by name, or loads them. `prefix` separates several modules in one
 /// file.
 void ExportTensors(const torch::nn::Module& module, const std::string& prefix,
                    Safetensors* content);
 void ImportTensors(const Safetensors& content, const std::string& prefix,
                    torch::nn::Module* module);
 
-/// The checkpoint `file`, whose tensors are in `content`. Throws Error(kInvalidArgument) naming a
-/// tensor that does not fit the configuration.
+/// Makes the model of the checkpoint `file`, whose tensors are in `content`. Throws
+/// Error(kInvalidArgument) naming a tensor that does not fit the configuration.
 template <typename Model, typename Config>
 CheckpointOf<Model> BuildCheckpoint(const CheckpointFile& file, const Safetensors& content) {
   CheckpointOf<Model> checkpoint{.model = Model(file.Get<Config>("config"), file.skeleton()),

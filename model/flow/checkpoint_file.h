@@ -9,22 +9,23 @@
 #include "model/core/safetensors.h"
 #include "model/motion/skeleton.h"
 
-/// The data around every checkpoint's tensors: a format name, configuration, skeleton, model card,
-/// and a content hash over everything.
+/// The data that accompany every checkpoint's tensors: a format name, configuration, skeleton,
+/// model card, and a content hash over everything.
 namespace choreo {
 
-/// Checks a file that has been read. Throws Error(kInvalidArgument) naming the file for another
-/// format, missing or unreadable parts, or a wrong hash.
+/// Checks a file's content. Throws Error(kInvalidArgument) naming the file for another format,
+/// missing or unreadable parts, or a wrong hash.
 class CheckpointFile {
  public:
-  /// `name`: what errors call the file; `format`: the expected one. Keeps a reference to `content`.
+  /// `name`: the file's name in errors. `format`: the expected format. Keeps a reference to
+  /// `content`.
   CheckpointFile(const Safetensors& content, const std::string& name, const std::string& format);
 
   const std::string& card() const { return Text("card"); }  ///< JSON text
   const std::string& hash() const { return Text("hash"); }  ///< 128-bit content hash, hex
   Skeleton skeleton() const;
 
-  /// Another field with JSON.
+  /// Another field that contains JSON.
   template <typename Value>
   Value Get(const std::string& key) const {
     try {
@@ -43,7 +44,8 @@ class CheckpointFile {
   std::string name_;
 };
 
-/// Writes the tensors and fields of `content` atomically as such a file; returns the content hash.
+/// Writes the tensors and fields of `content` atomically as a checkpoint file. Returns the content
+/// hash.
 std::string WriteCheckpointFile(const std::filesystem::path& path, Safetensors content,
                                 const std::string& format, const nlohmann::json& config,
                                 const Skeleton& skeleton, const nlohmann::json& card);

@@ -16,11 +16,12 @@
 namespace choreo {
 
 /// The continuous flow's network: a transformer over a window's frames, two per token. For a point
-/// z between noise and motion it predicts F, the part that noise can't tell (equations in
-/// model/flow/flow_sampler.h), from history, key and controls. Its buffers are the motion prior.
+/// z between noise and motion it predicts F, the unknown part of the flow (equations in
+/// model/flow/flow_sampler.h), from history, key and controls. The motion prior is stored in its
+/// buffers.
 class ContinuousFlowImpl : public torch::nn::Module {
  public:
-  /// The prior starts as that of a random walk.
+  /// Initially the prior is that of a random walk.
   ContinuousFlowImpl(const ContinuousFlowConfig& config, const Skeleton& skeleton);
 
   /// Shapes as in FlowNetwork::Evaluate, time before features: z [batch, w, dimensions], poses and
@@ -32,7 +33,7 @@ class ContinuousFlowImpl : public torch::nn::Module {
                         const torch::Tensor& t);
 
   /// `covariance` and `usual` as in MotionPrior; `mixing` as in FlowModelParts; `spread`
-  /// [dimensions]: of displacements over a window.
+  /// [dimensions]: the spread of displacements over a window.
   void SetPrior(const Eigen::MatrixXd& covariance, const VariancePowers& powers,
                 const Eigen::MatrixXd& mixing, const Eigen::VectorXd& spread,
                 const UsualPose& usual);
@@ -41,7 +42,7 @@ class ContinuousFlowImpl : public torch::nn::Module {
   void SetFacing(double variance);  ///< UsualPose::facing
   void SetCurve(const EnergyCurve& curve);
   void SetResponse(const EnergyResponse& response);
-  /// Everything that sampling needs besides the network.
+  /// Everything besides the network that sampling needs.
   FlowModelParts Parts() const;
 
   const ContinuousFlowConfig& config() const { return config_; }
@@ -60,18 +61,18 @@ class ContinuousFlowImpl : public torch::nn::Module {
 };
 TORCH_MODULE(ContinuousFlow);
 
-/// Runs the network one window at a time, so that a window's bits depend on nothing else. Keeps the
-/// model, on that device.
+/// Runs the network one window at a time, so that a window's bits do not depend on others. Keeps
+/// the model, on its device.
 std::unique_ptr<FlowNetwork> MakeTorchFlowNetwork(ContinuousFlow model,
                                                   torch::Device device = torch::kCPU);
 
 /// Checkpoints of this network (model/flow/checkpoint.h).
 using ContinuousFlowCheckpoint = CheckpointOf<ContinuousFlow>;
 bool HoldsContinuousFlow(const Safetensors& content);
-/// `name`: what errors call it. Throws Error(kInvalidArgument), saying which, for another format
-/// version, a wrong hash, or tensors that do not fit the configuration.
+/// `name`: the checkpoint's name in errors. Throws Error(kInvalidArgument), naming the fault, for
+/// another format version, a wrong hash, or tensors that do not fit the configuration.
 ContinuousFlowCheckpoint ParseContinuousFlow(const Safetensors& content, const std::string& name);
-/// Writes atomically; returns the content hash. `weights` holds the tensors by name.
+/// Writes a checkpoint atomically. Returns the content hash. `weights`: the tensors by name.
 std::string SaveContinuousFlow(const std::filesystem::path& path, const ContinuousFlow& model,
                                Safetensors weights, const nlohmann::json& card);
 

@@ -12,14 +12,14 @@
 
 namespace choreo {
 
-/// The farthest key of training, in frames from the window's first.
+/// The farthest key in training, in frames from the window's first.
 inline constexpr int kSightFrames = 192;
 
 /// The continuous flow's shape and sampling. Stored in every checkpoint.
 struct ContinuousFlowConfig {
   std::string name = "default";         ///< the model's name in servers' lists
   int history_frames = kHistoryFrames;  ///< tau
-  int window_frames = 96;               ///< most frames in a window; longer transitions are split
+  int window_frames = 96;               ///< the longest window; longer transitions are split
   int max_transition_frames = kMaxTransitionFrames;
 
   /// The transformer: two frames per token.
@@ -29,14 +29,15 @@ struct ContinuousFlowConfig {
   int steps = 3;           ///< K, network evaluations from noise to motion
   double temperature = 1;  ///< the served default, as in FlowNoise
   /// Multiplies the effect of beats and style on F (classifier-free guidance, Ho & Salimans 2022);
-  /// values other than 1 take twice the evaluations if a style is given, one less if only beats are.
+  /// values other than 1 take twice the evaluations with a style, and one less than that with beats
+  /// only.
   double guidance = 2;
   std::vector<std::string> styles = {};  ///< labels known from training
-  /// Medians of the training clips' velocity factors, metres a frame.
+  /// Medians of the training clips' velocity factors, metres per frame.
   std::array<double, kBodyParts> median_factors = {};
   PlanOptions plan = {};
 
-  /// Throws Error(kInvalidArgument) below `field` for steps out of range, and as plan.
+  /// Throws Error(kInvalidArgument) below `field` for steps out of range, and what `plan` throws.
   void Validate(const std::string& field) const;
 };
 

@@ -9,13 +9,13 @@
 
 namespace choreo {
 
-/// F of one window at each step from noise to motion, with guidance by its labels. Model, network
-/// and window must outlive it.
+/// F of one window at each step from noise to motion, guided by the labels. Model, network and
+/// window must outlive this object.
 class FlowField {
  public:
-  /// `history`: the window's. `features`: the window's as labelled and, for guidance, without
-  /// labels. `keeps_effect`: the last step takes the labels' effect from the one before, as it may
-  /// for beats, which affect neighbouring steps alike.
+  /// `history`: the window's history. `features`: the window's features with labels and, for
+  /// guidance, without. `keeps_effect`: the last step reuses the labels' effect from the previous
+  /// one. This is valid for beats, which affect neighbouring steps alike.
   FlowField(const FlowModelParts& model, const FlowNetwork& network, const FlowWindow& window,
             std::span<const Pose> history, std::span<const WindowFeatures> features,
             bool keeps_effect);
@@ -28,7 +28,7 @@ class FlowField {
   Slices<Eigen::MatrixXd> Evaluate(const Eigen::MatrixXd& w, int step);
 
  private:
-  // One input for the network.
+  // One set of inputs for the network.
   struct View {
     Eigen::MatrixXf frames, conditions;
   };

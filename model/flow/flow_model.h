@@ -21,17 +21,17 @@ class FlowNetwork {
   virtual Eigen::MatrixXf Condition(const Eigen::VectorXf& whole,
                                     std::span<const float> times) const = 0;
   /// F of one window at the time of `condition`, [dimensions, w]. `z` [dimensions, w]: the flow's
-  /// white coordinates; `poses` [dimensions, tau + w]: the history's displacements from its last
-  /// pose, then the same of z; `joints` [3 joints, tau + w]: the body's joints there, metres in the
-  /// canonical frame; `mean`: the prior's mean in the shape of `poses`; `frames`:
-  /// WindowFeatures::frames.
+  /// white coordinates; `poses` [dimensions, tau + w]: the displacements of the history, then of z,
+  /// from the last history pose; `joints` [3 joints, tau + w]: the joints' positions in these
+  /// poses, metres in the canonical frame; `mean`: the prior's mean in the shape of `poses`;
+  /// `frames`: WindowFeatures::frames.
   virtual Eigen::MatrixXf Evaluate(const Eigen::MatrixXf& z, const Eigen::MatrixXf& poses,
                                    const Eigen::MatrixXf& joints, const Eigen::MatrixXf& mean,
                                    const Eigen::MatrixXf& frames,
                                    const Eigen::VectorXf& condition) const = 0;
 };
 
-/// Everything that sampling a window needs besides the request.
+/// Everything besides the request that sampling a window needs.
 struct FlowModelParts {
   Skeleton skeleton;
   ContinuousFlowConfig config;

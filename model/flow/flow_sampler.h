@@ -14,7 +14,7 @@
 
 namespace choreo {
 
-/// The largest temperature: how far beyond the sampled motion a dance may go.
+/// The largest temperature, which limits extrapolation beyond the sampled motion.
 inline constexpr double kMaxFlowTemperature = 1.25;
 
 struct FlowNoise {
@@ -26,11 +26,11 @@ struct FlowNoise {
   std::vector<int64_t> like = {};
   double variation = 0;
   /// Interpolates from the mean motion (0, in one step) to a sampled one (1) and slightly beyond,
-  /// at most kMaxFlowTemperature. Noise itself is never scaled: the network would see a calm
-  /// dancer.
+  /// at most kMaxFlowTemperature. Noise itself is never scaled, because the network would take it
+  /// for a calm dancer.
   double temperature = 0;
 
-  /// The numbers of a frame, counted from the first.
+  /// The noise of a frame, counted from the first.
   void Fill(int frame, std::span<float> out) const;
 };
 
@@ -46,10 +46,10 @@ Slices<std::vector<Pose>> SampleWindow(const FlowModelParts& model, const FlowNe
 
 /// Samples a transition of any length as windows of at most config.window_frames, one after
 /// another, each in its own canonical frame. Every window sees the transition's key if it is at
-/// most kSightFrames away. A window without a key may end in a pose that dancers hardly ever have:
-/// it is then sampled again. `request` covers the whole transition, of at least one frame (frames
-/// <= to_key if there is a key). The model's TurnPrior chooses the way round to the key, unless the
-/// request does.
+/// most kSightFrames away. A window without a key is sampled again if it ends in a pose that
+/// dancers hardly ever have. `request` covers the whole transition, of at least one frame (frames
+/// <= to_key if there is a key). The model's TurnPrior chooses the direction of the turn to the
+/// key, unless the request does.
 Slices<std::vector<Pose>> SampleTransition(const FlowModelParts& model, const FlowNetwork& network,
                                            WindowRequest request, FlowNoise noise);
 

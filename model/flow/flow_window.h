@@ -22,31 +22,31 @@ namespace choreo {
 struct WindowRequest {
   int frames = 0;                  ///< w >= 1
   std::vector<Pose> history = {};  ///< tau poses, oldest first
-  /// The pose to reach, and which parts of it count; none: no key is known.
+  /// The pose to reach, and which parts of it count; none: no key.
   std::optional<Pose> key = {};
   PoseMask mask = {};
   bool height = false;  ///< whether the key's height counts if its position does not
   int to_key = 0;       ///< N >= frames, frames from the history to the key, if any
-  /// The known rotation vector by which the root turns to its key. None: the one that the history
-  /// suggests.
+  /// The rotation vector by which the root turns to its key, if known. None: the one that the
+  /// history suggests.
   std::optional<Eigen::Vector3d> turning = {};
   Controls controls = {};          ///< of its frames
   std::vector<double> beats = {};  ///< in frames from the window's first, ascending, or empty
   EnergyShift energy_shift = {};   ///< of the body parts without requested velocity factors
   int style = -1;                  ///< index of a style, or -1
-  /// The middle of the floor that the dancer keeps to, and the audience. Off a path the dancer
-  /// returns to both, unless a key says where the root goes or how it is turned.
+  /// The middle of the floor that the dancer keeps to, and the audience. Without a path the dancer
+  /// returns to both, unless a key fixes the root's position or rotation.
   std::optional<GroundFrame> stage = {};
-  /// Roughly how far the root turns about the vertical by the window's end, radians, if no key says
-  /// how it is turned. The facing of the audience nearest to it counts. None: as far as the history
-  /// suggests.
+  /// The approximate turn of the root about the vertical by the window's end, radians, if no key
+  /// fixes the rotation. Of the equivalent turns to the audience, the one nearest to this is used.
+  /// None: the turn that the history suggests.
   std::optional<double> turn = {};
 
-  /// The request for its frames [from, from + count) alone, with `poses` as history, in the frame
-  /// that `ground` is in the request's.
+  /// The request for the frames [from, from + count) only, with `poses` as history. `ground`: the
+  /// new canonical frame, in this request's frame.
   WindowRequest Part(int from, int count, std::span<const Pose> poses,
                      const GroundFrame& ground) const;
-  /// Whether the stage's middle, and its front, count.
+  /// Whether the stage's middle counts, and whether its front does.
   bool StageCounts() const {
     return stage && !controls[kRootPath].IsGiven() && !(key && mask.root_position);
   }
@@ -58,8 +58,7 @@ struct WindowRequest {
 /// The mirrored request, in the mirrored canonical frame.
 WindowRequest Mirror(const std::vector<int>& pairs, const WindowRequest& request);
 
-/// A turn for the request (WindowRequest::turn), such as dancers make freely. `normal`: a standard
-/// normal number.
+/// A typical free turn for the request (WindowRequest::turn). `normal`: a standard normal number.
 double FreeTurn(const MotionPrior& prior, const WindowRequest& request, double normal);
 
 /// EnergyLevel of each body part in each frame, [kBodyParts, w]; NaN if not requested.
@@ -80,11 +79,11 @@ class FlowWindow {
   int frames() const { return static_cast<int>(mean_.cols()); }
   /// [dimensions, w] Displacements from the last history pose, in its own tangent space.
   const Eigen::MatrixXd& mean() const { return mean_; }
-  /// The same for the history's poses, [dimensions, tau]; the last column is zero.
+  /// Displacements of the history's poses, [dimensions, tau]; the last column is zero.
   const Eigen::MatrixXd& history() const { return history_; }
   /// The history's last step, [dimensions], at most MotionPrior::kMaxSpeed.
   const Eigen::VectorXd& velocity() const { return velocity_; }
-  /// The same for the key, [dimensions]; zero where it asks for nothing.
+  /// The displacement to the key, [dimensions]; zero in dimensions that it leaves open.
   const Eigen::VectorXd& displacement() const { return displacement_; }
   /// Which dimensions the key fixes, [dimensions].
   const std::vector<bool>& keyed() const { return keyed_; }
@@ -97,14 +96,14 @@ class FlowWindow {
   /// MotionPrior::Scales for that and the requested energy, [dimensions, w]: the units of white
   /// coordinates.
   const Eigen::MatrixXd& scales() const { return scales_; }
-  /// Replaces the energy of the request that it was made from; all else must be equal.
+  /// Replaces the energy of the window's request. All other fields must be equal.
   void SetEnergy(const MotionPrior& prior, const WindowRequest& request);
 
   /// Poses for all frames → x; none if a joint deviates farther from the mean than coordinates
   /// reach, or ends a turn away from the key.
   std::optional<Eigen::MatrixXd> Encode(std::span<const Pose> poses) const;
   std::vector<Pose> Decode(const Eigen::MatrixXd& x) const;
-  /// z → x; and its inverse for one dimension's row.
+  /// Converts z to x, and one dimension's row back.
   Eigen::MatrixXd Colour(const Eigen::MatrixXd& z) const;
   /// Positions of `skeleton`'s joints in Decode(x)'s poses, [3 joints, w].
   Eigen::MatrixXf PlaceJoints(const Skeleton& skeleton, const Eigen::MatrixXd& x) const;

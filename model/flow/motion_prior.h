@@ -13,8 +13,8 @@
 
 namespace choreo {
 
-/// How far dancers deviate from the prior's mean: the variance as powers, measured in training, of
-/// what is known.
+/// The variance of dancers' deviation from the prior's mean, as powers of known values. Measured in
+/// training.
 struct VariancePowers {
   static constexpr double kDefaultMinScale = 0.25;
 
@@ -26,13 +26,13 @@ struct VariancePowers {
   double offset = 0, known_surprise = 0, level = 0;
   double least_scale = kDefaultMinScale;        ///< the least factor of its spread
   std::vector<int> parts = {};                  ///< by dimension: its body part, or -1
-  std::array<double, kBodyParts> medians = {};  ///< of their velocity factors, metres a frame
+  std::array<double, kBodyParts> medians = {};  ///< of the velocity factors, metres per frame
 };
 
 /// The energy of a body part relative to its median: the logarithm of the ratio of velocity
 /// factors, flat below a millimetre a frame.
 double EnergyLevel(double factor, double median);
-/// The velocity factor with that level, at least 0.
+/// The velocity factor with this EnergyLevel, at least 0.
 double EnergyFactor(double level, double median);
 
 /// Units of rotations as network inputs. Dimensions with a spread of at most `still` are absent
@@ -50,17 +50,17 @@ struct UsualPose {
   /// dancers face anywhere.
   double facing = 0;
 
-  /// How far a pose's root is from it in height and tilt, in standard deviations, the largest. 0 if
-  /// unknown.
+  /// The larger deviation of a pose's root from the usual height and tilt, in standard deviations.
+  /// 0 if unknown.
   double Deviation(const Pose& other) const;
 };
 
-/// How poses move given only their past and a key: the velocity of each degree of freedom is a
-/// stationary Gaussian process. Its mean given history and key is the line that the flow starts
-/// from; its covariance is that of the flow's noise, which makes noise as smooth as motion, at any
-/// length, with and without a key.
+/// A prior for motion, given only its past and a key: the velocity of each degree of freedom is a
+/// stationary Gaussian process. Its mean given history and key is the flow's starting point. Its
+/// covariance is that of the flow's noise, which is therefore as smooth as motion, at any length,
+/// with and without a key.
 ///
-/// Units: metres a frame for the root's position, radians a frame for rotations. Thread-safe.
+/// Units: metres per frame for the root's position, radians per frame for rotations. Thread-safe.
 class MotionPrior {
  public:
   static constexpr int kLags = 121;  ///< of a trained covariance: four seconds at 30 fps
@@ -85,7 +85,7 @@ class MotionPrior {
     Eigen::VectorXd expected;
   };
 
-  /// `covariance` [dimensions, lags]: of velocities with themselves that many frames later. Throws
+  /// `covariance` [dimensions, lags]: the autocovariance of velocities by lag in frames. Throws
   /// Error(kInvalidArgument) if it is not a valid covariance.
   explicit MotionPrior(Eigen::MatrixXd covariance, VariancePowers powers = {},
                        UsualPose usual = {});
@@ -93,9 +93,9 @@ class MotionPrior {
   int dimensions() const { return static_cast<int>(covariance_.rows()); }
   const Eigen::MatrixXd& covariance() const { return covariance_; }
   const VariancePowers& powers() const { return powers_; }
-  /// The factor of each frame's noise, [dimensions, frames]: a lively dancer stays so. `surprise`:
-  /// the known displacements' squares over those that the covariance expects (1 on average);
-  /// `levels` [kBodyParts, frames]: EnergyLevel of each body part, NaN if unknown.
+  /// The factor of each frame's noise, [dimensions, frames], which keeps a lively dancer lively.
+  /// `surprise`: the known displacements' squares over those that the covariance expects (1 on
+  /// average); `levels` [kBodyParts, frames]: EnergyLevel of each body part, NaN if unknown.
   Eigen::MatrixXd Scales(double surprise, const Eigen::MatrixXd& levels) const;
   /// The networks' unit of velocities, [dimensions]: their standard deviation.
   Eigen::VectorXd VelocitySpread() const;

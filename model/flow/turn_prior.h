@@ -8,10 +8,11 @@
 
 namespace choreo {
 
-/// Which way round dancers turn to a key. Two turns have the same end: the shorter one, and the
-/// rest of a whole turn the other way. Logistic regression gives the probability of the other from
-/// how far and how fast each goes, the dancer's present turn, sideways motion and energy, the key's
-/// position, and the turn of its chest against the hips. Measured in training. Thread-safe.
+/// Chooses the direction in which dancers turn to a key. Two turns have the same end: the shorter
+/// one, and the rest of a whole turn in the other direction. Logistic regression gives the
+/// probability of the longer one from the angle and speed of each, the dancer's present turn,
+/// sideways motion and energy, the key's position, and the turn of its chest against the hips.
+/// Measured in training. Thread-safe.
 class TurnPrior {
  public:
   static constexpr int kInputs = 9;
@@ -29,8 +30,8 @@ class TurnPrior {
   /// turns it about an axis other than the vertical. Equal for a dancer and the mirror image.
   static std::optional<Inputs> Describe(const Skeleton& skeleton, const WindowRequest& request);
   double ChanceOfOther(const Inputs& inputs) const;
-  /// Returns WindowRequest::turning: the likelier way at temperature 0; at 1 each as often as
-  /// dancers take it. `normal`: a standard normal number. None if nothing is known.
+  /// Returns WindowRequest::turning: the likelier direction at temperature 0; at 1, each as often
+  /// as dancers choose it. `normal`: a standard normal number. None if unknown.
   std::optional<Eigen::Vector3d> Sample(const Skeleton& skeleton, const WindowRequest& request,
                                         double normal, double temperature) const;
 };
