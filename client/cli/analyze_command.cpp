@@ -41,7 +41,7 @@ std::pair<double, double> PartOf(const authoring::Music& music, const AnalyzeOpt
   };
   const double from = second("--from", options.from, 0);
   const double said = second("--until", options.until, std::numeric_limits<double>::infinity());
-  // All of the song is heard, but a dance of --seconds has no keys beyond them.
+  // The whole song is analysed, but a dance of --seconds has no keys after its end.
   const double until = std::min(said, options.seconds);
   if (from >= until) {
     throw InvalidArgument("--from", Rounded(from) + " s is not before " +

@@ -26,7 +26,8 @@ void VisitMembers(Report& report, AskedFor& asked, const Visit& visit) {
   visit(report, "music_downbeats", asked.downbeats);
 }
 
-/// The song that a report names, from here or from its own folder; empty if it is not there.
+/// Finds the song that a report names, in the working directory or beside the report; empty if
+/// there is none.
 std::string FindSong(const std::string& song, const std::filesystem::path& report) {
   for (const std::filesystem::path& path :
        {std::filesystem::path(song), report.parent_path() / song}) {

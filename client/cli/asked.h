@@ -15,30 +15,31 @@ namespace choreo::cli {
 /// The value of --song that means no music, not even the report's.
 inline constexpr const char* kNoSong = "none";
 
-/// A dance's request beside its keys. Its report states it for later edits.
+/// What the user requested for a dance, except its keys. The dance's report states it for later
+/// edits.
 struct Asked : DanceManner {
   std::string model = {};
   std::optional<uint64_t> seed = {};
-  std::string song = {};  ///< the file as it was named
+  std::string song = {};  ///< the file's name as given
   double song_start_s = 0;
-  /// Seconds of the dance, unless they are those found in the song.
+  /// In seconds of the dance; empty if they are those found in the song.
   std::vector<double> beats = {}, downbeats = {};
   ControlRequest controls = {};
 
-  /// Adds it to a report.
+  /// Adds the request to a report.
   void WriteTo(nlohmann::ordered_json* report) const;
-  /// Reads the report called `name`; reports of earlier versions say less. Throws
-  /// Error(kInvalidArgument) whose field is NAME:MEMBER.
+  /// Reads the request in the report called `name`. Reports of earlier versions have fewer members.
+  /// Throws Error(kInvalidArgument) whose field is NAME:MEMBER.
   static Asked ReadFrom(const nlohmann::ordered_json& report, const std::string& name);
 
-  /// Fills in the song of a command from this, of the report called `report`, unless the command
-  /// line names one; and its start for this song, unless it says that. Looks for the file here and
-  /// beside the report. `without`: the effect of a missing song, for a note. Returns whether it
-  /// filled in a song.
+  /// Sets a command's song `to` this request's, unless the command line names one, and `start_s` to
+  /// this song's start, unless the command line gives it (`says_start`). Looks for the file in the
+  /// working directory and beside `report`, the report with this request. `without`: the effect of
+  /// a missing song, for a note. Returns whether it set the song.
   bool TakeSong(const std::filesystem::path& report, bool says_start, const std::string& without,
                 std::string* to, double* start_s) const;
 
-  /// What was asked for the dance from this second on, of a model at `fps`.
+  /// The request for the part of the dance from this second on. `fps`: the model's.
   Asked From(double seconds, double fps) const;
 };
 

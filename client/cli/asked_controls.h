@@ -12,7 +12,7 @@
 #include "model/motion/controls.h"
 #include "model/motion/mirror.h"
 
-/// The controls that a dance was asked for, in its report: frames of the model.
+/// The controls requested for a dance, in its report. Frames are the model's.
 namespace choreo::cli {
 
 /// A control's member of a report: its option without the dashes.
@@ -28,7 +28,7 @@ void WriteControls(const Request& controls, nlohmann::ordered_json* report,
       controls);
 }
 
-/// Reads those of the report called `name`. Throws Error(kInvalidArgument) whose field is
+/// Reads the controls in the report called `name`. Throws Error(kInvalidArgument) whose field is
 /// NAME:MEMBER.
 template <typename Request = ControlRequest>
 Request ReadControls(const nlohmann::ordered_json& report, const std::string& name,
@@ -44,8 +44,8 @@ Request ReadControls(const nlohmann::ordered_json& report, const std::string& na
   return controls;
 }
 
-/// Cuts off the rows of a control that begin before frame 0, except that the last one of them
-/// begins there, on the line between its neighbours.
+/// Cuts off the rows of a control before frame 0. The last of them moves to frame 0, with values
+/// interpolated between it and the next row.
 class CutAtZero {
  public:
   explicit CutAtZero(std::vector<int64_t>* frames);
@@ -71,7 +71,8 @@ class CutAtZero {
   double share_ = 0;
 };
 
-/// The controls of a dance that is delayed by so many frames, or, below 0, cut so much later.
+/// The controls of a dance that is delayed by `frames` or, if these are negative, whose beginning
+/// is cut off.
 template <typename Request>
 Request Delayed(Request controls, int64_t frames) {
   Request::VisitControls(
@@ -95,7 +96,7 @@ struct FieldMirror {
   }
 };
 
-/// Those of a dance whose left and right are exchanged, at the plane x = 0.
+/// The controls of a dance mirrored in the plane x = 0.
 template <typename Request>
 Request Mirrored(Request controls) {
   Request::VisitControls(

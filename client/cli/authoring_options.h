@@ -8,19 +8,19 @@
 #include "client/authoring/written_controls.h"
 #include "client/cli/output_file.h"
 
-/// The options of what client/authoring reads.
+/// Command-line options for the inputs that client/authoring reads.
 namespace choreo::cli {
 
 /// An existing file, a pipe, or `-` for standard input.
 CLI::Validator SongFile();
 
-/// --beats, --tempo, --half-time, --double-time, --downbeat.
+/// Adds --beats, --tempo, --half-time, --double-time and --downbeat.
 void AddBeatOptions(CLI::App& command, authoring::BeatOptions* options);
 
-/// The options of these controls; --velocity-reference, too.
+/// Adds the options of these controls, and --velocity-reference.
 void AddControlOptions(CLI::App& command, authoring::WrittenControls* controls,
                        std::span<const ControlRow> rows = kControls);
-/// The files that these name.
+/// The files that the options of controls name.
 std::vector<NamedFile> FilesOf(const authoring::WrittenControls& controls);
 
 }  // namespace choreo::cli

@@ -11,8 +11,8 @@
 
 namespace choreo::cli {
 
-/// `--names` and `--unit`, for commands that write motions: BVH files as animators' tools expect
-/// them.
+/// `--names` and `--unit`, for commands that write motions: the layout of BVH files for animators'
+/// tools.
 struct BvhOptions {
   std::string names;  ///< empty: SMPL's
   std::string unit;   ///< "m" or "cm"; empty: centimetres
@@ -21,7 +21,7 @@ struct BvhOptions {
   /// Throws Error(kInvalidArgument), whose field is the option, if one is given and `out` is not a
   /// BVH, and for unknown names.
   void Check(const std::filesystem::path& out) const;
-  /// Writes like WriteMotion (motion_file.h), a BVH in this layout.
+  /// Writes a motion like WriteMotion (motion_file.h); a BVH gets this layout.
   void Write(const std::filesystem::path& out, const Skeleton& skeleton, const Motion& motion,
              const std::vector<Contacts>& contacts) const;
 };

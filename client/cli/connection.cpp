@@ -23,7 +23,7 @@ using Clock = std::chrono::steady_clock;
 constexpr std::chrono::seconds kOfOneLoss{5};
 constexpr const char* kServerVariable = "CHOREO_SERVER";
 
-/// Says where the address of a server that is not there comes from.
+/// Adds, to the error for an unreachable server, where its address comes from.
 Error Explained(const Error& error, const std::vector<std::string>& addresses) {
   const char* variable = std::getenv(kServerVariable);
   if (error.code() != ErrorCode::kUnavailable || variable == nullptr) return error;
@@ -89,7 +89,7 @@ client::Options ServerOptions::ForClient() const {
 struct Connection::Failures {
   explicit Failures(double seconds) : retry_s(seconds) {}
 
-  /// Notes each loss of a server once.
+  /// Prints a note for each loss of a server, once.
   void Take(const std::string& address, const Error& failure) {
     // The error itself reports a server that was never reached.
     if (!reached) return;

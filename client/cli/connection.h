@@ -21,23 +21,25 @@ struct ServerOptions {
   bool even_draining = false;
 
   void AddTo(CLI::App& command);
-  /// Adds the flag to commands whose dances outlive a server.
+  /// Adds --allow-inexact-resume, for commands whose dances can resume on another server.
   void AddInexactResume(CLI::App& command);
-  /// Uses the client's default without addresses.
+  /// The options for a client. Without addresses, the client's default remains.
   client::Options ForClient() const;
 };
 
-/// The named server, or else our own for the lifetime of this object, which serves only `model`
-/// ("": the default) to load no other; none: the default ones.
+/// A connection to the named server or, without addresses, to a server of our own that runs for the
+/// lifetime of this object. To save loading others, our own server serves only `model` ("": the
+/// default one); none: the default models.
 class Connection {
  public:
   explicit Connection(const ServerOptions& options, const std::optional<std::string>& model = {});
 
   const client::Client& client() const { return *client_; }
   const client::ServerDescription& server() const { return server_; }
-  /// The model of this name, or the default. Throws Error(kNotFound) naming the existing ones.
+  /// The model of this name; empty: the default. Throws Error(kNotFound), naming the existing
+  /// models, for an unknown name.
   const client::ModelDescription& model(const std::string& name) const;
-  /// The latest failure of a server, once reached, that another attempt followed. Thread-safe.
+  /// The latest failure that was retried, after a server had been reached. Thread-safe.
   std::optional<Error> failure() const;
 
  private:

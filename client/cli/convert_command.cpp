@@ -38,7 +38,7 @@ struct ConvertOptions {
   CharacterOptions character;
   std::string root_motion = "pelvis";
 
-  /// The map for the motion's bones; without a character, `--map` is the motion's.
+  /// The map for the motion's bones: `--map` if there is no character.
   const std::string& map() const {
     return motion_map.empty() && !character.given() ? character.map : motion_map;
   }

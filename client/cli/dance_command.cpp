@@ -35,7 +35,7 @@ void TakeProject(DanceOptions* options) {
     }
     options->song = project.song;
   }
-  // The beats of the project's own song, unless others are asked for.
+  // Uses the beats of the project only with the project's own song, unless others are requested.
   const auto file_of = [](const std::string& song) {
     return std::filesystem::path(song).filename();
   };

@@ -13,11 +13,11 @@ struct DanceFile {
   client::FinishedDance dance;
 };
 
-/// A motion (motion_input.h) with the contacts of our npz files. Fails like ReadMotion;
-/// Error(kInvalidArgument) whose field is PATH:contacts.
+/// Reads a motion (motion_input.h) with the contacts of our npz files. Throws as ReadMotion does,
+/// and Error(kInvalidArgument) whose field is PATH:contacts.
 DanceFile ReadDance(const std::filesystem::path& path);
 
-/// The same on this skeleton. Refuses other bones: a retargeted dance would not stay as it is.
+/// Reads a dance on this skeleton. Refuses other bones, because retargeting would change the dance.
 client::FinishedDance ReadDance(const std::filesystem::path& path, const Skeleton& skeleton);
 
 }  // namespace choreo::cli

@@ -25,7 +25,7 @@
 namespace choreo::cli {
 namespace {
 
-/// A dance without a song lasts as long as the path and the keys need.
+/// Chooses the length of a dance without a song: as long as the path and the keys require.
 double ChooseSilentSeconds(const DanceOptions& options, const ControlRequest& controls,
                            const client::ModelDescription& model) {
   if (options.seconds) return *options.seconds;
@@ -81,10 +81,10 @@ authoring::DanceKeys ChooseKeys(const DanceOptions& options,
     request.beats = counts.beats;
     request.one = counts.one;
     request.passages = music->passages;
-    request.seed ^= music->id;  // other songs get other poses and ways
+    request.seed ^= music->id;  // other songs get other poses and paths
     if (request.way) *request.way ^= music->id;
   }
-  // A deterministic model's dancer hardly moves without a next key.
+  // With a deterministic model, the dancer hardly moves without a next key.
   if (model.deterministic) request.end_s = static_cast<double>(length.frames - 1) / length.fps;
   authoring::DanceKeys keys;
   keys.poses = authoring::ComposeKeys(request, authoring::PosesToDance(model.skeleton));
@@ -113,7 +113,7 @@ void AddEnding(const DanceOptions& options, const std::optional<authoring::Music
       static_cast<double>(seen.frames - 1) / seen.fps - authoring::Ending(pose, beats, seen).time_s;
   authoring::RefuseHeldInAir(pose.key, held_s, "--end", model.skeleton);
   const std::vector<std::string> gone = authoring::EndIn(pose, beats, controls, seen, keys);
-  if (options.keys.empty()) return;  // nobody set those
+  if (options.keys.empty()) return;  // the user did not set the removed keys
   for (const std::string& id : gone)
     std::cerr << "note: key \"" << id << "\" makes way for the ending\n";
 }

@@ -22,18 +22,18 @@ struct DanceOptions : DanceManner {
   std::string song;
   authoring::BeatOptions beats;
   std::vector<std::string> keys;
-  std::string end;  ///< the pose to end in, as ReadPose takes it; or empty
-  /// A dancer who begins later ends as much earlier in her own time, which is cut off there.
+  std::string end;  ///< the pose to end in, a source for ReadPose; or empty
+  /// The dancer's delay. The delayed dance ends with the others, so its own end is cut off.
   std::optional<authoring::WrittenTime> after;
-  std::string after_name;  ///< the field of errors about it
+  std::string after_name;  ///< the field of errors about `after`
   std::string project;
-  /// Seconds of the dance; `project_ones` begin an eight.
+  /// Beats of the project, in seconds of the dance; `project_ones` begin an eight.
   std::vector<double> project_beats, project_downbeats, project_ones;
   std::optional<double> seconds;
   double song_start_s = 0;
   std::optional<uint64_t> seed;
-  std::optional<uint64_t> way_seed;    ///< whose way over the floor library poses keep to
-  std::string style_name = "--style";  ///< the field of errors about it
+  std::optional<uint64_t> way_seed;    ///< seed of the path over the floor of library poses
+  std::string style_name = "--style";  ///< the field of errors about the style
   double fps = 0;
   authoring::WrittenControls controls;
   std::string model;
@@ -46,12 +46,12 @@ struct DanceOptions : DanceManner {
   bool allow_bends = false;
 };
 
-/// A dance that can begin: its options are checked, and its keys fit into it.
+/// A dance that is ready to begin: its options are checked, and its keys fit into it.
 struct PlannedDance {
   DanceOptions options;
   authoring::DanceLength length;
   authoring::DanceKeys keys = {};
-  std::vector<client::Warning> faults = {};  ///< of the keys
+  std::vector<client::Warning> faults = {};  ///< warnings about the keys
   client::DanceConfig config = {};
   client::Audio audio = {};
 };
@@ -62,17 +62,18 @@ struct Performance {
   WrittenDance written;
 };
 
-/// Reads the keys for SMPL's skeleton: throws what Plan would throw of their files, before a
-/// server is started.
+/// Checks the key files, for SMPL's skeleton, before a server is started. Throws what Plan would
+/// throw for them.
 void CheckKeyFiles(const DanceOptions& options, const std::optional<authoring::Music>& music);
 
-/// Plans a dance as the options say, to this music, their song's, and prints warnings of its keys.
-/// Errors name the option, or the place in a file.
+/// Plans the dance that the options describe, and prints warnings about its keys. `music`: that of
+/// the options' song. Errors name the option, or the place in a file.
 PlannedDance Plan(const DanceOptions& options, const std::optional<authoring::Music>& music,
                   const Connection& connection);
 
-/// Dances as planned. Writes what came of a failed or interrupted dance beside `out`. The show of
-/// --vmc starts with the dance. Errors are those of Plan.
+/// Performs a planned dance. If it fails or is interrupted, writes the received frames beside
+/// `out`. Starts the `show` of --vmc with the dance. Errors name the option, or the place in a
+/// file.
 Performance Perform(const PlannedDance& plan, const Connection& connection,
                     const std::filesystem::path& out, std::optional<VmcShow>* show);
 

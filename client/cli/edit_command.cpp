@@ -30,7 +30,7 @@ bool EditsWhole(const EditOptions& options) {
   return !options.from.empty() || !options.until.empty() || options.mirror || !options.join.empty();
 }
 
-/// Reports bad times, and counts without a song, before a server is asked or started.
+/// Reports invalid times, and counts without a song, before a server is called or started.
 void CheckTimes(const EditOptions& options) {
   for (const auto& [option, time] : TimesOf(options)) {
     const authoring::WrittenTime parsed = authoring::ParseTime(time, option);
@@ -44,7 +44,7 @@ void CheckTimes(const EditOptions& options) {
   }
 }
 
-/// These edits need the report, which names the keys.
+/// Throws for edits that need the report, which names the keys, if none is given.
 void CheckReported(const EditOptions& options) {
   for (const auto& [option, given] : {std::pair("--move", !options.moves.empty()),
                                       {"--remove", !options.removed.empty()},
@@ -63,20 +63,19 @@ void CheckReported(const EditOptions& options) {
   }
 }
 
-/// The first key to change must be in the report. Reports a missing one before a server is asked or
-/// started.
+/// Checks that the first key to change is in the report, before a server is called or started.
 void CheckFirstKey(const EditOptions& options) {
   const bool removes = !options.removed.empty();
   if (!removes && options.moves.empty()) return;
   const auto report = ReadReport(options.report);
   const ReportKeys keys = KeysOf(report, std::numeric_limits<int64_t>::max(), options.report);
   const std::string& id = removes ? options.removed.front() : options.moves.front().first;
-  // Only the song's counts tell which key ID@COUNT is.
+  // Finding the key ID@COUNT requires the song's counts.
   if (!options.song.empty() && id.find('@') != std::string::npos) return;
   FindKey(keys, id, report["fps"].get<double>(), removes ? "--remove" : "--move", {});
 }
 
-/// A project is edited for its markers alone: dances are edited where they are danced.
+/// Refuses edits of a project other than of its markers.
 void CheckMarkers(const EditOptions& options) {
   if (EditsKeys(options) || EditsWhole(options)) {
     throw InvalidArgument("dance", options.dance +

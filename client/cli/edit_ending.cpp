@@ -1,4 +1,4 @@
-// The pose in which a finished dance is to end.
+// Sets the pose in which a finished dance ends.
 #include "client/authoring/ending.h"
 #include "client/authoring/key_faults.h"
 #include "client/authoring/key_file.h"
@@ -21,7 +21,7 @@ void EditSession::End(const std::string& source) {
   authoring::RefuseHeldInAir(named.key, last_s - begin_s, "--end", edit_.model.skeleton);
   edit.held = authoring::Holding(&edit.key, last_s - begin_s, "--end");
   for (client::KeyPose& held : edit.held) held.frame = Frame(held.time_s);
-  // A hold that reaches into the way ends before it.
+  // Ends a hold that reaches into the transition to the pose.
   const std::vector<client::Warning> ended = EndHold(*edit.key.frame, edit.key.id);
   ClearWay(*edit.key.frame - Frame(authoring::kWayFromHold) + 1, frames_, {}, "the ending");
   Set("--end", begin_s, std::move(edit));

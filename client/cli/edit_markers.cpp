@@ -29,7 +29,8 @@ std::string Spoken(const ordered_json& marker) {
   return marker["name"].get<std::string>() + '@' + Rounded(TimeOf(marker));
 }
 
-/// The marker called NAME, or NAME@SECOND where several are; the end if there is none.
+/// Finds the marker called NAME, or NAME@SECOND if several have that name; the end if there is
+/// none.
 ordered_json::iterator Find(ordered_json& markers, const std::string& id, const char* option) {
   std::vector<ordered_json::iterator> found;
   for (auto marker = markers.begin(); marker != markers.end(); ++marker) {
@@ -59,7 +60,7 @@ authoring::Counts CountsOf(const authoring::Project& project, const EditOptions&
                                                   options.song_start_s, options.beats));
 }
 
-/// Sets a marker, or moves the one of this name.
+/// Sets a marker, or moves the existing one of this name.
 void Mark(const std::string& id, double time_s, ordered_json* markers) {
   ordered_json marker = {{"time", time_s}, {"name", id}};
   const auto old = Find(*markers, id, "--mark");

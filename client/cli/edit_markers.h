@@ -4,11 +4,11 @@
 
 namespace choreo::cli {
 
-/// Whether `choreo edit` is given a project, which has markers, instead of a dance.
+/// Whether the file given to `choreo edit` is a project, which has markers, instead of a dance.
 bool IsProject(const EditOptions& options);
 
-/// Sets, moves and removes markers of a project (--mark, --unmark) and writes it; all else in it
-/// stays. Errors name the option.
+/// Sets, moves and removes markers of a project (--mark, --unmark) and writes it, otherwise
+/// unchanged. Errors name the option.
 void EditMarkers(const EditOptions& options);
 
 }  // namespace choreo::cli

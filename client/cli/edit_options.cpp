@@ -34,7 +34,7 @@ authoring::Counts CountsOf(const EditOptions& options,
   return authoring::CountsOf(*music);
 }
 
-/// Which of the report's beats the options leave.
+/// Sets the beats from the report that the options do not replace.
 void TakeBeats(bool says_start, EditOptions* options) {
   Asked& asked = options->asked;
   const BeatHint& hint = options->beats.hint;
@@ -50,15 +50,15 @@ void TakeBeats(bool says_start, EditOptions* options) {
   authoring::ChangeBeats(options->beats, options->song_start_s, &asked.beats, &asked.downbeats);
 }
 
-/// Whether a dance of so many frames at `fps` has the file's number of frames at the file's rate.
-/// Its last ones, after the file's last frame, may be missing.
+/// Whether a dance of `frames` at `fps` has the file's number of frames at the file's rate. Its
+/// last frames, after the file's last frame, may be missing.
 bool IsShortenedTo(const Motion& file, const nlohmann::ordered_json& frames, double fps) {
   if (!authoring::IsFrameNumber(frames)) return false;
   const double after_s = (frames.get<double>() - 1) / fps - Duration(file);
   return after_s > 0 && after_s * file.fps < 1 - kOnFrame;
 }
 
-/// Fills in the controls of the report that the command line does not give, and this model has.
+/// Fills in controls from the report that the command line does not give and the model supports.
 void TakeControls(const ControlRequest& known, const client::ModelDescription& model,
                   ControlRequest* controls) {
   const auto take = [&](size_t row, const auto& from, auto& to) {
@@ -106,7 +106,7 @@ void TakeReport(bool says_start, EditOptions* options) {
   TakeBeats(says_start, options);
   take("model", asked.model, &options->model, asked.model);
   options->changed = ChangeOf(*options);
-  // Another take needs another seed, unless it is danced otherwise.
+  // Another take needs another seed, unless other settings change.
   if (!options->retakes.empty() && options->changed == DanceChange::kNothing) {
     options->seed = asked.seed.value_or(0) + 1;
     std::cerr << "note: takes are danced with seed " << *options->seed

@@ -17,7 +17,7 @@
 
 namespace choreo::cli {
 
-/// What the command line changes of how a dance is danced.
+/// Which settings of the whole dance the command line changes.
 enum class DanceChange { kNothing, kSeed, kPath, kOther };
 
 /// The options of `choreo edit`.
@@ -37,12 +37,12 @@ struct EditOptions : DanceManner {
   std::string end;            ///< the pose to end in, as in --key; or empty
   std::string hold;           ///< of `keys`; or empty
   std::optional<double> hit;  ///< of `keys` and `moves`
-  std::string hands;          ///< the same; or empty
+  std::string hands;          ///< of `keys` and `moves`; or empty
   bool in_place = false;
   bool allow_bends = false;
   bool loop = false;
   std::optional<double> around_s;
-  std::string song;  ///< "none": not that of the report
+  std::string song;  ///< "none": no song, not even the report's
   double song_start_s = 0;
   authoring::BeatOptions beats;
   std::string report;
@@ -64,35 +64,35 @@ struct EditOptions : DanceManner {
   std::string join, join_report;
   std::optional<double> gap_s;
 
-  Asked asked;  ///< what the report says of the dance (TakeReport)
+  Asked asked;  ///< the request in the dance's report (TakeReport)
 };
 
-/// Fills in open settings of the command line from the report, and says so. `says_start`: whether
-/// the command line says where the song starts.
+/// Fills in settings that the command line does not give from the report, and prints notes about
+/// that. `says_start`: whether the command line gives the song's start.
 void TakeReport(bool says_start, EditOptions* options);
 
 /// All times on the command line, with their options.
 std::vector<std::pair<const char*, std::string>> TimesOf(const EditOptions& options);
-/// Whether one of them is in counts.
+/// Whether a time on the command line is in counts.
 bool UsesCounts(const EditOptions& options);
-/// The settings for new frames, with the song up to `end_s`, if there is one; and its counts.
+/// The settings for new frames, with the song up to `end_s`, if any, and the song's counts.
 std::tuple<client::EditOptions, authoring::Counts> HowToDance(const EditOptions& options,
                                                               const Connection& connection,
                                                               double end_s);
 /// The counts of the song up to `end_s`; none without a song.
 authoring::Counts ReadCounts(const EditOptions& options, double end_s);
-/// The parts of a dance's report that edits keep: keys by frame, and warnings.
+/// The parts of a dance's report that edits keep.
 struct KnownDance {
   ReportKeys keys = {};
   std::vector<client::Warning> warnings = {};
   Asked asked = {};
 };
-/// Reads them from a report, for a dance of this many frames of a model at this rate, in a file
-/// that may have another rate. Notes that the dance was edited since; throws
-/// Error(kInvalidArgument) whose field begins with the report's name, also for the report of
-/// another dance.
+/// Reads the known parts of a dance from its report. `frames`, `fps`: the dance's, at the model's
+/// rate; its `file` may have another rate. Prints a note if the dance was edited after the report.
+/// Throws Error(kInvalidArgument), whose field begins with the report's name, for an invalid
+/// report, and for the report of another dance.
 KnownDance ReadKnown(const std::string& report, int64_t frames, double fps, const Motion& file);
-/// Writes them as a report of this motion, for the next edit.
+/// Writes the known parts as a report of this motion, for the next edit.
 void WriteKnown(const std::filesystem::path& path, const KnownDance& known, int64_t frames,
                 double fps, const Motion& file);
 

@@ -1,4 +1,4 @@
-// Edits of phrases: of all keys of a few seconds.
+// Edits phrases: all keys within a few seconds.
 #include <algorithm>
 #include <iostream>
 #include <set>
@@ -14,7 +14,8 @@
 namespace choreo::cli {
 namespace {
 
-/// Holds a key until a frame, by keys as close together as those that held it for `before` frames.
+/// Holds a key until a frame, with keys as close together as those that held it for `before`
+/// frames.
 void HoldUntil(int64_t last, int64_t before, client::KeyEdit* edit) {
   const int64_t frames = last - *edit->key.frame;
   const auto count = static_cast<int64_t>(edit->held.size());
@@ -45,7 +46,7 @@ void EditSession::Repeat(double from_s, double until_s, const std::string& later
   const GroundFrame there = GroundFrame::Of(phrase.front().key.pose);
   const GroundFrame here = Here(first);
   const auto carry = [&](Pose& pose) { pose = here.ToWorld(there.ToLocal(pose)); };
-  // Removes the keys there, and those too near.
+  // Removes the keys at the phrase's new place, and those too near to it.
   const std::vector<client::Warning> ended = EndHold(first, phrase.front().key.id);
   const int64_t last = LastFrame(phrase.back());
   ClearWay(std::min(Frame(moved(from_s)), first - kMinKeyDistance + 1),
@@ -78,7 +79,7 @@ void EditSession::SetAll(const char* field, std::span<client::KeyEdit> phrase) {
   for (const client::KeyEdit& edit : phrase) frames.push_back(*edit.key.frame);
   for (client::KeyEdit& edit : phrase) {
     const int64_t at = *edit.key.frame;
-    // All between them is danced anew.
+    // Generates all frames between them again.
     for (const int64_t frame : frames)
       if (frame != at) stale_.insert(frame + 1);
     Set(field, Seconds(at), std::move(edit));
@@ -150,7 +151,7 @@ void EditSession::Stretch(double from_s, double until_s, double times) {
   }
   std::erase_if(phrase, [&](const client::KeyEdit& edit) { return *edit.key.frame >= frames_; });
   if (!phrase.empty()) EndWithDance(&phrase.back());
-  // The frames danced anew begin at a key that stays.
+  // The frames generated again begin at a key that stays.
   const bool stays =
       !phrase.empty() && *phrase.front().key.frame == first && phrase.front().held.empty();
   if (phrase.size() == size_t{stays})
@@ -177,7 +178,7 @@ void EditSession::ClearWay(int64_t first, int64_t end, const std::vector<client:
   const auto begin = keys_.lower_bound(AfterHold(first));
   const auto stop = keys_.lower_bound(AfterHold(end));
   for (auto key = begin; key != stop; ++key) {
-    // One line tells of a whole held pose.
+    // Prints one line for a held pose and all keys that hold it.
     if (!leave.contains(key->first) && !HoldsAnother(key->second)) NoteWay(key->first, what);
   }
   Forget(begin, stop);

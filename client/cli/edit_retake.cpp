@@ -1,4 +1,4 @@
-// Another take of a part of a dance.
+// Generates another take of a part of a dance.
 #include <algorithm>
 #include <iostream>
 
@@ -30,7 +30,7 @@ void EditSession::Retake(double from_s, double until_s) {
               << kLeastTake << " s nothing much can change\n";
   }
   DanceAnew("take of " + Rounded(Seconds(first)) + " to " + Rounded(Seconds(to)) + " s", from, to);
-  known_.asked.seed = edit_.seed;  // the next take's is the one after it
+  known_.asked.seed = edit_.seed;  // the next take has the next seed
 }
 
 void EditSession::DanceOtherwise() {
@@ -50,7 +50,7 @@ void EditSession::DanceOtherwise() {
 void EditSession::DanceAnew(const std::string& what, int64_t from, int64_t to) {
   client::Gap gap{.from = from, .to = to, .keys = KeysAsDanced(from + 1, to)};
   if (const auto& path = edit_.controls.root_path; path && options_.controls.IsOption(kRootPath)) {
-    // The new path says where they are.
+    // The new path determines the places of the keys.
     for (client::KeyPose& key : gap.keys)
       if (*key.frame >= path->frames.front() && *key.frame <= path->frames.back())
         key.mask.root_position = false;

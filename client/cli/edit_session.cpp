@@ -23,7 +23,7 @@
 namespace choreo::cli {
 namespace {
 
-/// Seconds in which a dancer can get from a held pose back into the dance and be seen to.
+/// Least seconds for a visible return from a held pose into the dance.
 constexpr double kLeastAfterHold = 1;
 
 void NoteUnknown(const EditOptions& options) {
@@ -125,7 +125,7 @@ void EditSession::MoveKey(const std::string& id, double to_s) {
   if (!options_.hold.empty()) HoldAsAsked(edit.key.id, to_s, &edit);
   Forget(keys_.find(frames.front()), keys_.upper_bound(frames.back()));
   const std::vector<client::Warning> ended = MakeRoom("--move", &edit);
-  // The frames danced anew around the new place may not include the old one.
+  // The frames generated again around the new place may not include the old one.
   const auto is_new = [&](int64_t frame) {
     return frame > Before(frames.front() + by) && frame < After(LastFrame(edit));
   };
@@ -201,7 +201,7 @@ void EditSession::MakeWay(int64_t first, int64_t last, const std::string& id) {
   }
   for (const int64_t frame : gone) {
     const auto key = keys_.find(frame);
-    if (key == keys_.end()) continue;  // held a key that is gone
+    if (key == keys_.end()) continue;  // it held a key that was removed
     NoteWay(frame,
             '"' + id + "\": " +
                 (frame == first ? "it stands there"
@@ -323,7 +323,7 @@ void EditSession::CheckKeys() const {
 }
 
 int64_t EditSession::FrameInDance(const char* field, double at_s) const {
-  // The very end means the last frame, as it does for keys of a new dance (dance_keys.h).
+  // A time at the very end means the last frame, as for keys of a new dance (FitIntoDance).
   const int64_t frame = Frame(at_s) == frames_ ? frames_ - 1 : Frame(at_s);
   if (frame < frames_) return frame;
   throw InvalidArgument(field, Rounded(at_s) +

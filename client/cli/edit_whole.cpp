@@ -99,7 +99,7 @@ class Whole {
       dance_ = client::Join(std::move(dance_), next.dance_);
       std::cout << "joined as they are";
     } else if (!options_.gap_s && client::BeginsIn(skeleton_, next.dance_, last)) {
-      --begin;  // both have the frame where they meet
+      --begin;  // both dances have the frame at which they meet
       dance_ = client::Join(client::PartOf(dance_, 0, begin), next.dance_);
       std::cout << "joined where they meet";
     } else {
@@ -133,7 +133,7 @@ class Whole {
     ReportKeys keys;
     for (auto& [frame, key] : known_.keys) {
       key["frame"] = frame + by;
-      // These describe the former file.
+      // Removes members that describe the former file.
       for (const char* member :
            {"output_frame", "on_output_frame", "output_error_m", "output_error_deg"}) {
         key.erase(member);
@@ -144,7 +144,7 @@ class Whole {
     for (client::Warning& warning : known_.warnings) warning.frame += by;
   }
 
-  /// Dances the way to the other dance; returns where that begins.
+  /// Generates the transition to the other dance, and returns the frame at which that begins.
   int64_t DanceOver(const client::FinishedDance& next) {
     const Connection connection(options_.server, options_.model);
     const client::ModelDescription& model = connection.model(options_.model);
@@ -161,7 +161,7 @@ class Whole {
                                          Rounded(static_cast<double>(most) / model.fps) + " s");
     }
     auto [how, counts] = HowToDance(options_, connection, Duration(dance_.motion) + gap_s);
-    // The way leads to the other dance, not along the path of this one.
+    // The transition leads to the other dance, not along the path of this one.
     if (!options_.controls.IsOption(kRootPath)) how.controls.root_path.reset();
     const auto before = std::ssize(dance_.motion.frames) + std::ssize(next.motion.frames);
     client::EditedDance joined;

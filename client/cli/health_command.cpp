@@ -7,11 +7,11 @@
 namespace choreo::cli {
 namespace {
 
-/// Fails unless the server serves; for programs that start, watch and replace servers.
+/// Throws unless the server is serving. For programs that start, monitor and replace servers.
 void Run(const ServerOptions& server, bool any_certificate) {
   client::Options options = server.ForClient();
   options.retry_s = 0;
-  options.token_file.clear();  // health needs none
+  options.token_file.clear();  // health checks need no token
   options.any_certificate = any_certificate;
   if (!client::Client(options).IsServing()) {
     throw Error(ErrorCode::kUnavailable, options.addresses.front(),

@@ -76,7 +76,7 @@ std::string Plain(const nlohmann::ordered_json& value) {
   return text;
 }
 
-/// Prints how the checkpoints that training continued from were trained, the last first.
+/// Prints how the checkpoints from which training continued were trained, the latest first.
 void PrintAncestors(const nlohmann::ordered_json& card) {
   const nlohmann::ordered_json unknown = "?";
   const nlohmann::ordered_json* from = &card;
@@ -89,8 +89,8 @@ void PrintAncestors(const nlohmann::ordered_json& card) {
   }
 }
 
-/// Prints a model's card, a line per member, and a line per length for the validation. --json has
-/// all about its ancestors.
+/// Prints a model's card: one line per member and, for the validation, one per length. --json also
+/// prints everything about its ancestors.
 void PrintCard(const std::string& card) {
   const auto all = nlohmann::ordered_json::parse(card, nullptr, false);
   if (!all.is_object()) return;
@@ -102,7 +102,7 @@ void PrintCard(const std::string& card) {
         std::printf("  data, %s: %s\n", part.c_str(), Plain(content).c_str());
     } else if (name == "from") {
       PrintAncestors(all);
-    } else if (name != "licence") {  // said above
+    } else if (name != "licence") {  // printed above
       std::printf("  %s: %s\n", name.c_str(), Plain(value).c_str());
     }
   }
@@ -174,7 +174,8 @@ void PrintServer(const client::ServerDescription& server, const InfoOptions& opt
   }
 }
 
-/// A failed check counts as serving, because proxies may not forward health checks.
+/// Whether the server may be serving. A failed check counts as serving, because proxies may not
+/// forward health checks.
 bool MayServe(const client::Client& client) {
   try {
     return client.IsServing();

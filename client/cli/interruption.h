@@ -4,8 +4,9 @@
 
 namespace choreo::cli {
 
-/// While it exists, a first Ctrl-C or SIGTERM does not end the program: long work checks for it and
-/// ends cleanly. A second one ends it at once. One at a time, on the main thread.
+/// While this object exists, a first Ctrl-C or SIGTERM does not end the program, so that long work
+/// can check for it and end cleanly. A second one ends the program at once. Create at most one
+/// object at a time, on the main thread.
 class Interruption {
  public:
   Interruption();
@@ -13,9 +14,9 @@ class Interruption {
   Interruption(const Interruption&) = delete;
   Interruption& operator=(const Interruption&) = delete;
 
-  /// Whether one came during the lifetime of any of these.
+  /// Whether a signal came during the lifetime of any of these objects.
   static bool Came();
-  /// Throws Error(kCancelled) if so.
+  /// Throws Error(kCancelled) if a signal came.
   static void Check();
 
  private:

@@ -159,7 +159,7 @@ void Run(const LiveCommand& options) {
                                          " s is not after what is settled already, --look-ahead " +
                                          InFull(options.look_ahead_s) + " s");
   }
-  // Comes before the server's start, so that a wrong file name is reported at once.
+  // Opened before the server starts, so that a wrong file name is reported at once.
   const std::unique_ptr<live::Sound> sound = OpenSound(options);
   const Connection connection(options.server, options.model);
   const client::ModelDescription& model = connection.model(options.model);

@@ -8,7 +8,7 @@
 namespace choreo::cli {
 namespace {
 
-/// What is known of a dance whose server was lost.
+/// Makes a report of what is known about a dance whose server was lost.
 client::Report CutOff(const live::LiveDance& live) {
   client::Report report;
   report.frames = static_cast<int64_t>(

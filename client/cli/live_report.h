@@ -6,8 +6,8 @@
 
 namespace choreo::cli {
 
-/// A live dance, as far as it was danced. `keys`: those known from the beginning; `asked` gets the
-/// beats that were danced to, unless its song's file tells them.
+/// Examines the received part of a live dance. `keys`: those known from the beginning. `asked`: the
+/// request; sets its beats to those that were danced to, unless its song's file gives them.
 WrittenDance Examine(const live::LiveDance& live, const authoring::DanceKeys& keys, Asked asked);
 
 }  // namespace choreo::cli

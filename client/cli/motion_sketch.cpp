@@ -10,10 +10,10 @@ namespace choreo::cli {
 namespace {
 
 constexpr int64_t kMoments = 16;
-constexpr double kAlike = 0.1;  // radians; interpolation between frames makes less of a difference
+constexpr double kAlike = 0.1;  // radians; more than the error of interpolating between frames
 constexpr double kGoldenAngle = 2.4;  // radians
 
-// Weights spread over [-1, 1], so that a joint makes up for no other one.
+// Sums angles with weights spread over [-1, 1], so that changes of joints do not cancel.
 double AngleSum(const Pose& pose) {
   double sum = 0;
   for (Eigen::Index joint = 1; joint < pose.rotations.cols(); ++joint) {

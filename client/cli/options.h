@@ -12,64 +12,65 @@
 #include "client/choreo_client.h"
 #include "client/dance_config.h"
 
-/// Options shared by several commands, and checks with readable messages.
+/// Options that several commands share, and validators with readable messages.
 namespace choreo::cli {
 
-/// A number above 0.
+/// Accepts a number above 0.
 const CLI::Validator& AboveZero();
-/// A time, 0 to kMaxSeconds.
+/// Accepts a number of seconds, 0 to kMaxSeconds.
 CLI::Validator TimeInSeconds();
-/// A time in seconds or counts (counts.h).
+/// Accepts a time in seconds or counts (counts.h).
 const CLI::Validator& TimeOrCount();
 
-/// A number within these limits, and a whole one.
+/// Accept a number, or a whole number, within these limits.
 CLI::Validator NumberFrom(double low, double high);
 CLI::Validator WholeNumberFrom(int64_t low, int64_t high);
 
-/// One of these words; the message names the one that a misspelt word may mean.
+/// Accepts one of these words. The message suggests the word that a misspelt one may mean.
 CLI::Validator OneOf(const std::vector<std::string>& words);
-/// The file of a song, or kNoSong.
+/// Accepts the file of a song, or kNoSong.
 const CLI::Validator& SongOrNone();
 
-/// `--song-start`, seconds.
+/// Adds `--song-start`, seconds.
 void AddSongStart(CLI::App& command, double& seconds);
-/// Throws CLI::ValidationError if it is given without a song.
+/// Throws CLI::ValidationError if `--song-start` is given without a song.
 void CheckSongStart(const CLI::App& command, const std::string& song);
 
-/// `--allow-bends`.
+/// Adds `--allow-bends`.
 void AddAllowBends(CLI::App& command, bool& allowed);
 
-/// `--hit`; `whose`: "the poses of --key are", "the end is".
+/// Adds `--hit`. `whose`: its subject in the help, "the poses of --key are" or "the end is".
 void AddHit(CLI::App& command, std::optional<double>& hit, const std::string& whose);
 
-/// `--hands`, one of kHandPoseNames, after which the text names the choice.
+/// Adds `--hands`, one of kHandPoseNames. `what`: the beginning of its help, before the choice.
 void AddHands(CLI::App& command, std::string& hands, const std::string& what);
 
-/// `--vmc`, HOST:PORT.
+/// Adds `--vmc`, HOST:PORT.
 void AddVmc(CLI::App& command, std::string& address);
 
-/// `--temperature`, `--music-dynamics`, `--variation`, and `--style`, one that `choreo info` lists.
+/// Adds `--temperature`, `--music-dynamics`, `--variation` and `--style` (as in `choreo info`).
 void AddManner(CLI::App& command, DanceManner* manner);
 
-/// `--model`, one of the server's.
+/// Adds `--model`, one of the server's models.
 void AddModel(CLI::App& command, std::string& model);
-/// The end of the help of all options that choose among dances.
+/// The end of the help of all options that only choose among possible dances.
 inline const std::string kOfChance =
     "Changes nothing where `choreo info` calls the model deterministic.";
-/// Notes that a style which was asked for does not show with this model.
+/// Prints a note if the requested style does not show in this model's dances.
 void NoteStyle(const client::ModelDescription& model, const std::string& style);
-/// Notes to users of such options, each with whether it is given, that a model is deterministic.
+/// Prints a note if the model is deterministic and any of these options, which affect only chance,
+/// is given. `options`: names, and whether each is given.
 void NoteDeterministic(const client::ModelDescription& model,
                        std::initializer_list<std::pair<std::string_view, bool>> options);
 
-/// `--seed`: a whole number of 64 bits, never negative.
+/// Adds `--seed`, an unsigned integer of 64 bits.
 CLI::Option* AddSeed(CLI::App& command, std::optional<uint64_t>& seed, const std::string& help);
 
-/// Replaces the library's or server's name of a setting in an error by its option.
+/// Replaces the library's or server's name of a setting in an error with its option.
 Error AsTyped(const Error& error);
 
-/// An option that may be repeated. Each takes one value; another argument may follow, such as a
-/// song.
+/// Adds an option that may be repeated. Each occurrence takes one value, so that another argument,
+/// such as a song, may follow.
 template <typename Value>
 CLI::Option* AddRepeated(CLI::App& command, const std::string& name, std::vector<Value>& values,
                          const std::string& help) {

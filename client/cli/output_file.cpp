@@ -35,7 +35,7 @@ void RequireWritable(const NamedFile& file) {
   open(beside.partial());
 }
 
-/// Compares existing files themselves, and others by their resolved names.
+/// Whether two paths are the same file. Compares missing files by their resolved names.
 bool SameFile(const fs::path& a, const fs::path& b) {
   std::error_code error;
   if (fs::equivalent(a, b, error)) return fs::is_regular_file(a, error);

@@ -6,23 +6,23 @@
 
 namespace choreo::cli {
 
-/// A file from an option; without a path, the option was not given.
+/// A file named by an option. An empty path means that the option was not given.
 struct NamedFile {
   std::string option;
   std::filesystem::path path;
 };
 
-/// Refuses, before the work, outputs that cannot be written (no such folder, a folder itself, no
-/// permission) or that would destroy each other or an input. Does not change them. Throws
-/// Error(kNotFound) or Error(kInvalidArgument) whose field is the option, naming the path and the
-/// reason, or the other option.
+/// Checks outputs before the work. Refuses those that cannot be written (no such folder, a folder
+/// itself, no permission), and those that would overwrite each other or an input. Does not change
+/// any file. Throws Error(kNotFound) or Error(kInvalidArgument) whose field is the option, naming
+/// the path and the reason, or the other option.
 void RequireOutputs(const std::vector<NamedFile>& outputs, const std::vector<NamedFile>& inputs);
 
-/// Refuses a file with another extension (".png"; in any case), naming both.
+/// Refuses a file without this extension (".png", in upper or lower case). The error names both.
 void RequireExtension(const std::string& option, const std::filesystem::path& path,
                       const std::string& extension);
 
-/// Where a partial result goes: dance.npz, dance.partial.npz.
+/// The path for a partial result: dance.partial.npz for dance.npz.
 std::filesystem::path PartialPath(const std::filesystem::path& out);
 
 }  // namespace choreo::cli

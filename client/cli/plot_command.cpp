@@ -71,7 +71,7 @@ PlotSeries SpeedOf(BodyPart part, const SkeletonMotion& dance) {
   return line;
 }
 
-// The stage from above, with the audience at the right.
+// Adds a place on the stage, seen from above with the audience at the right.
 void AddPlace(const Eigen::Vector3d& place, PlotSeries* line) {
   line->x.push_back(place.z());
   line->y.push_back(place.x());
@@ -227,7 +227,7 @@ void Run(PlotOptions& options) {
     if (i < asked) {
       PlotSeries wanted = part ? LevelOf(options.speeds[i], line)
                                : AskedOf(options.paths[i], counts, dance.motion.fps, height);
-      // A common one comes first.
+      // Plots a request that all motions share first.
       if (asked < motions) plot.series.push_back(std::move(wanted));
       plot.series.push_back(std::move(line));
       if (asked == motions) plot.series.push_back(std::move(wanted));

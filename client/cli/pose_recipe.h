@@ -8,7 +8,7 @@
 
 namespace choreo::cli {
 
-/// How to make a pose, from a command line, in order of execution.
+/// How to make a pose, from a command line. Steps are executed in the order of the members.
 struct PoseRecipe {
   /// A source for ReadPose (pose_source.h), or "rest": upright, arms out to the sides.
   std::string from = "rest";
@@ -26,8 +26,8 @@ struct PoseRecipe {
 
 /// Makes the pose. Its mask is that of `from` plus the joints that were set. Throws
 /// Error(kInvalidArgument) whose field is the option as given, "--set left_elbow=200", naming
-/// joint, value and limit; for a target out of reach it states the remaining distance. Errors of
-/// `from` as ReadPose.
+/// joint, value and limit; for a target out of reach it states the remaining distance. Throws as
+/// ReadPose does for `from`.
 client::KeyPose MakePose(const PoseRecipe& recipe, const Skeleton& skeleton);
 
 }  // namespace choreo::cli

@@ -38,7 +38,7 @@ struct RenderOptions {
   std::string report;
   ContactSheetOptions sheet;
   std::string video;
-  std::string song;         ///< "none": not that of the report
+  std::string song;         ///< "none": no song, not even the report's
   std::string from, until;  ///< TIMEs; empty: from the first frame to the last
   std::string size = SizeText({});
   std::string camera;
@@ -48,7 +48,7 @@ struct RenderOptions {
 /// A key in a dance's report.
 struct ReportedKey {
   double seconds = 0;
-  bool holds = false;  ///< it only holds the pose of one before
+  bool holds = false;  ///< whether it only holds the pose of an earlier key
 };
 
 std::vector<ReportedKey> ReportedKeys(const std::string& path) {
@@ -61,8 +61,8 @@ std::vector<ReportedKey> ReportedKeys(const std::string& path) {
   return keys;
 }
 
-/// Fills in the song and its start from the report, and says so. `says_start`: whether the command
-/// line says where the song starts.
+/// Fills in the song and its start from the report, and prints a note. `says_start`: whether the
+/// command line gives the song's start.
 void TakeSong(bool says_start, RenderOptions* options) {
   const Asked asked = options->report.empty()
                           ? Asked()
@@ -77,7 +77,7 @@ void TakeSong(bool says_start, RenderOptions* options) {
   }
 }
 
-/// The counts of the report, or of its song or the one that was named; none if neither is needed.
+/// The counts of the report, of its song, or of the named song; none if no time is in counts.
 authoring::Counts CountsFor(const RenderOptions& options) {
   const auto in_counts = [](const std::string& time) {
     return !time.empty() && authoring::ParseTime(time, "time").counts;
@@ -95,7 +95,7 @@ authoring::Counts CountsFor(const RenderOptions& options) {
       authoring::ReadMusic(song, std::numeric_limits<double>::infinity(), start_s));
 }
 
-/// Keeps what lies between --from and --until, with the keys and the song there.
+/// Keeps only the part between --from and --until, with its keys and its part of the song.
 void Cut(RenderOptions* options, Stage* stage, std::vector<ReportedKey>* keys) {
   if (options->from.empty() && options->until.empty()) return;
   const authoring::Counts counts = CountsFor(*options);
@@ -120,7 +120,7 @@ void Cut(RenderOptions* options, Stage* stage, std::vector<ReportedKey>* keys) {
   }
   for (auto& dancer : *stage) {
     auto& frames = dancer.motion.frames;
-    // Who ends earlier stands still, as in the whole.
+    // A dancer whose motion ends earlier stands still, as in the whole film.
     frames.resize(static_cast<size_t>(std::max(std::ssize(frames), end)), frames.back());
     frames.erase(frames.begin() + end, frames.end());
     frames.erase(frames.begin(), frames.begin() + first);
@@ -198,7 +198,7 @@ void Run(RenderOptions options) {
   for (const std::string& motion : options.motions) inputs.push_back({"motion", motion});
   RequireOutputs({{"--out", options.out}, {"--video", options.video}}, inputs);
   Stage stage = ReadStage(options.motions);
-  // Of several, the report is that of one.
+  // With several motions, the report belongs to only one of them.
   if (!options.report.empty() && stage.size() == 1)
     CheckSketch(options.report, ReadReport(options.report), stage.front().motion);
   std::vector<ReportedKey> keys = ReportedKeys(options.report);

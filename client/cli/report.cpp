@@ -23,7 +23,7 @@ std::string Format(const char* format, Values... values) {
   return text;
 }
 
-/// The errors at keys: in the file and, for those between its frames, in the dance.
+/// Describes the errors at keys: in the file and, for keys between its frames, in the dance.
 std::string KeysText(const WrittenDance& dance) {
   struct Worst {
     size_t keys = 0;

@@ -18,7 +18,7 @@ constexpr const char* kHands = "hands";
 
 std::string IdOf(const nlohmann::ordered_json& key) { return key["id"].get<std::string>(); }
 
-/// The key that ID@TIME means; the end if there is none.
+/// Finds the key that ID@TIME means; the end if there is none.
 ReportKeys::const_iterator Nearest(const ReportKeys& keys, const std::string& id, double fps,
                                    const std::string& field, const authoring::Counts& counts) {
   const size_t at = id.rfind('@');
@@ -40,7 +40,7 @@ ReportKeys::const_iterator Nearest(const ReportKeys& keys, const std::string& id
   return nearest;
 }
 
-/// What ID or ID@TIME may mean, or else the keys that there are.
+/// Lists the keys that ID or ID@TIME may mean or, if there are none, all keys.
 template <typename Second>
 std::string DescribeKnown(const ReportKeys& keys, const std::string& id,
                           const std::vector<std::string>& known, const Second& second) {

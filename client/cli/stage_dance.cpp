@@ -27,7 +27,7 @@ fs::path PathOf(const authoring::Dancer& dancer, const fs::path& path) {
 
 bool HoldsAll(const fs::path& out) { return SmallExtension(out) == ".glb"; }
 
-/// A dancer's options: the dancer's own, and the common ones for the rest.
+/// A dancer's options: the dancer's own and, for the others, the common ones.
 DanceOptions OwnOptions(const DanceOptions& options, const authoring::Dancer& dancer,
                         const std::string& field) {
   DanceOptions own = options;
@@ -51,7 +51,7 @@ bool SameDance(const DanceOptions& a, const DanceOptions& b) {
 struct Shared {
   PlannedDance plan;
   std::string names;
-  fs::path out;  ///< of the first of them
+  fs::path out;  ///< the output file of the first of these dancers
   Performance performance = {};
 };
 
@@ -104,7 +104,8 @@ WrittenDance Later(WrittenDance written, int64_t delay) {
   return written;
 }
 
-/// A dance's path and velocities where this dancer has it; `apart`: how far she was moved away.
+/// Mirrors, delays, turns and moves a dance's controls for this dancer. `apart`: how far KeepApart
+/// moved the dancer.
 ControlRequest OnStage(ControlRequest controls, const authoring::Dancer& dancer, int64_t delay,
                        const Eigen::Vector3d& apart) {
   if (dancer.mirrored) controls = Mirrored(std::move(controls));
@@ -155,7 +156,7 @@ void DanceTogether(const DanceOptions& options, const authoring::Dancers& stage,
   std::vector<size_t> dance_of;
   std::vector<Shared> shared = PlanAll(options, stage, music, connection, out, &dance_of);
   const std::vector<int64_t> delays = DelaysOf(options, stage, shared, dance_of);
-  // All are checked before the first, which takes long, dances.
+  // Checks all dances before generating the first one, which takes long.
   for (Shared& dance : shared) {
     std::optional<VmcShow> none;
     dance.performance = Perform(dance.plan, connection, dance.out, &none);

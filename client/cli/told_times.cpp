@@ -11,7 +11,7 @@ std::string ToldTimes::Of(int64_t frame) const {
   const std::string told = Rounded(second) + " s";
   if (counts.beats.size() < 2) return told;
   const auto count_at = [&](double off) { return authoring::CountAt(second + off / fps, counts); };
-  // The nearest frame to 9c is 9c.
+  // Shows the frame nearest to count 9 as 9c.
   const double part = std::round(4 * count_at(0)) / 4;
   const bool is_part = count_at(-0.5) <= part && part <= count_at(0.5);
   const double count = is_part ? part : count_at(0);

@@ -8,10 +8,10 @@
 
 namespace choreo::cli {
 
-/// How moments of a dance are told to users: in the unit that they use.
+/// Formats moments of a dance for users, in the units that they use.
 struct ToldTimes {
   double fps = kModelFps;         ///< the model's
-  authoring::Counts counts = {};  ///< of the song; empty: seconds alone
+  authoring::Counts counts = {};  ///< of the song; empty: only seconds
 
   /// "4.2 s", or "9c, 4.2 s".
   std::string Of(int64_t frame) const;

@@ -61,7 +61,7 @@ client::TransitionResult Generate(const client::Client& client,
   }
 }
 
-// --at would have no effect without these.
+// Throws if --at is given without the options that it affects.
 void CheckAt(const CLI::App& command, const TransitionOptions& options) {
   const auto is_absent = [](const NamedFile& file) { return file.path.empty(); };
   if (command.count("--at") > 0 && options.song.empty() &&

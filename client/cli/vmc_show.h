@@ -10,16 +10,16 @@
 
 namespace choreo::cli {
 
-/// `--vmc`, for dances made faster than real time: streams a dance in real time from its first
-/// frame on.
+/// `--vmc` for dances that are generated faster than real time: streams a dance in real time,
+/// starting at its first frame.
 class VmcShow {
  public:
-  /// Fails like VmcSender.
+  /// Throws as VmcSender does.
   VmcShow(const std::string& address, const Skeleton& skeleton) : sender_(address, skeleton) {}
 
   /// Takes each message of the dance, in order.
   void Take(const client::Message& message);
-  /// Whether the last frame has been sent, waiting a moment if needed.
+  /// Whether the last received frame has been sent. Waits a moment if not.
   bool Over() { return !player_ || player_->Shown(); }
 
  private:
