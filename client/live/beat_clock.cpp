@@ -8,7 +8,7 @@ namespace choreo::live {
 namespace {
 
 constexpr size_t kBeats = 9;      // used for the period
-constexpr double kForgotten = 3;  // seconds without a beat after which there is none
+constexpr double kForgotten = 3;  // seconds without a beat after which there is no period
 // A step this many times the median is a gap: earlier beats no longer count.
 constexpr double kGap = 1.7;
 constexpr double kRounding = 1e-3;  // seconds, for requests at a beat itself

@@ -12,10 +12,11 @@ class BeatClock {
  public:
   void Hear(const client::Beat& beat);
 
-  /// Seconds between beats; none before three beats without a gap, and if the last was long ago.
+  /// Seconds between beats. None before three beats without a gap, and if the last beat was long
+  /// before `now`.
   std::optional<double> Period(double now) const;
   double confidence() const { return beats_.empty() ? 0 : beats_.back().confidence; }
-  /// The first beat at or after `seconds`; `seconds` itself without a period.
+  /// The second of the first beat at or after `seconds`; `seconds` itself if there is no period.
   double AtOrAfter(double seconds, double now) const;
 
  private:

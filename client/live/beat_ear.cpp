@@ -7,7 +7,7 @@
 namespace choreo::live {
 namespace {
 
-constexpr double kMemorySeconds = 120;  // an intro's half beats sound like beats within one window
+constexpr double kMemorySeconds = 120;  // less would mistake an intro's half beats for beats
 constexpr double kEverySeconds = 1.5;
 
 int64_t Onsets(double seconds) { return std::llround(seconds * kOnsetRate); }

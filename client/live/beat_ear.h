@@ -12,30 +12,30 @@
 
 namespace choreo::live {
 
-/// A listener's hint about the beats heard.
+/// A person's hint about the beats of live music.
 struct LiveBeatHint {
   BeatHint beats = {};
   std::optional<double> downbeat_s = {};  ///< second of the music at which a bar began
-  double later_s = 0;                     ///< by which they are later than the beats found
+  double later_s = 0;                     ///< seconds by which the beats are later than those found
 };
 
 /// Predicts the beats of live music: finds those of its last minutes as in a whole song
-/// (TrackBeats) and extrapolates them. Works on its own thread, so the listener never waits.
+/// (TrackBeats) and extrapolates them. Works on its own thread, so that Hear never waits.
 class BeatEar {
  public:
-  /// How far ahead of the music it predicts, seconds: as far as transitions reach.
+  /// How far ahead of the music beats are predicted, seconds: the length of a transition.
   static constexpr double kAheadSeconds = 5;
 
   explicit BeatEar(const LiveBeatHint& hint = {});
 
-  /// Replaces the hint, and looks for beats anew.
+  /// Replaces the hint, and searches for beats again.
   void SetHint(const LiveBeatHint& hint);
 
-  /// Takes the next mono samples at 22 050 Hz. Returns beats ahead about every other second; none
-  /// while no beat is clear.
+  /// Takes the next mono samples at 22 050 Hz. Returns beats ahead about every other second, and
+  /// none while no beat is clear.
   BeatsAhead Hear(std::span<const float> mono);
-  /// Waits for a search in progress, whose beats the next Hear returns. Callers not in real time
-  /// need it.
+  /// Waits for a search in progress, whose beats the next Hear returns. Needed by callers that do
+  /// not run in real time.
   void Wait() const {
     if (found_.valid()) found_.wait();
   }
@@ -48,8 +48,8 @@ class BeatEar {
   int64_t searched_ = 0;       // onsets received at the last search
   std::future<BeatTrack> found_;
   LiveBeatHint hint_;
-  std::optional<int64_t> kept_;  // a beat found last: half time stays on the same half
-  std::optional<int64_t> one_;   // the last downbeat, counting from the hint's
+  std::optional<int64_t> kept_;  // a beat of the last search, so that half time keeps its beats
+  std::optional<int64_t> one_;   // the last downbeat, counted from the hint's downbeat
 };
 
 }  // namespace choreo::live

@@ -33,7 +33,7 @@ class Keyboard final : public Cues {
       else if (at < poses_.size())
         cues.push_back({poses_[at]});
     }
-    // The escape key alone: later bytes are not part of a sequence.
+    // Escape was pressed alone: later bytes are not part of a sequence.
     if (!typed) sequence_ = Sequence::kNone;
     return cues;
   }

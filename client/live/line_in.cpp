@@ -9,14 +9,14 @@ namespace choreo::live {
 namespace {
 
 constexpr unsigned kRate = 44100;           // every sound card supports it
-constexpr unsigned kBufferMicros = 200000;  // the longest time that we may be busy elsewhere
+constexpr unsigned kBufferMicros = 200000;  // the longest time between reads without loss
 
 void KeepQuiet(const char*, int, const char*, int, const char*, ...) {}
 
 class LineIn final : public Sound {
  public:
   explicit LineIn(const std::string& device) : device_(device), samples_(kPiece) {
-    // Our errors say in one line what went wrong.
+    // Silences ALSA, because our errors explain failures in one line.
     snd_lib_error_set_handler(KeepQuiet);
     Check(snd_pcm_open(&pcm_, device.c_str(), SND_PCM_STREAM_CAPTURE, 0));
     const int code = snd_pcm_set_params(pcm_, SND_PCM_FORMAT_FLOAT, SND_PCM_ACCESS_RW_INTERLEAVED,
@@ -32,7 +32,7 @@ class LineIn final : public Sound {
 
   std::span<const float> Next() override {
     snd_pcm_sframes_t read = snd_pcm_readi(pcm_, samples_.data(), samples_.size());
-    // After an overrun the lost sound is gone: the dance continues with what sounds now.
+    // After an overrun, continues with the present sound; the lost sound cannot be recovered.
     for (int tries = 0; read < 0 && tries < 3; ++tries) {
       snd_pcm_recover(pcm_, static_cast<int>(read), /*silent=*/1);
       read = snd_pcm_readi(pcm_, samples_.data(), samples_.size());

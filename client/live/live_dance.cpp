@@ -15,7 +15,7 @@
 namespace choreo::live {
 namespace {
 
-constexpr double kSpareSeconds = 0.05;         // for the way to the server and back
+constexpr double kSpareSeconds = 0.05;         // for the network round trip
 constexpr double kMinTransitionSeconds = 0.5;  // between poses
 constexpr double kMinAheadSeconds = 0.1;       // between a pose and what is already danced
 constexpr double kClockMissedSeconds = 5;      // after which a missing MIDI clock is reported
@@ -70,7 +70,8 @@ void LiveDance::Run(Sound& sound, std::span<const std::unique_ptr<Cues>> cues, M
   observer_.figures(all_);
 }
 
-// Throws what kept the dance from beginning: nobody watches a dance after its music.
+// Throws the failure that kept the dance from beginning, if it has not begun when the music is
+// over.
 void LiveDance::RequireBegun() {
   if (begun_ || over_ || !observer_.failure || !observer_.go_on()) return;
   if (const auto failure = observer_.failure()) throw *failure;
@@ -90,7 +91,7 @@ void LiveDance::Play(Sound& sound, std::span<const std::unique_ptr<Cues>> cues, 
       for (const Cue& cue : source->Take()) Follow(cue, now);
     }
     if (midi) SendBeats({.beats = midi->Take(now)}, now);
-    // It receives all music, so that it knows the beats when the clock stops.
+    // The ear receives all music, so that it knows the beats when the MIDI clock stops.
     MusicEar::Ahead heard = ear.Hear(piece);
     if (!midi || !midi->runs()) SendBeats(std::move(heard.beats), now);
     if (!clock_missed && (midi->runs() || now >= kClockMissedSeconds)) {
@@ -111,7 +112,7 @@ void LiveDance::Play(Sound& sound, std::span<const std::unique_ptr<Cues>> cues, 
   dance_->CompleteKeys();
 }
 
-// Beats in the settled part would come too late, and none are accepted after the longest music.
+// Sends only beats that are not too late (in the settled part) and not after the longest music.
 void LiveDance::SendBeats(BeatsAhead ahead, double now) {
   ahead.Keep(now + options_.look_ahead_s, kMaxAudioSeconds);
   if (!ahead.beats.empty()) dance_->SendBeats(ahead.beats, ahead.downbeats, ahead.confidence);
@@ -149,7 +150,7 @@ void LiveDance::Follow(const Cue& cue, double now) {
   key.id = "cue " + std::to_string(sent_.size() + 1) + " " + cue.pose;
   key.frame = FrameAt(at);
   key.pose = pose->second;
-  key.mask.root_position = false;  // wherever the dancer is then
+  key.mask.root_position = false;  // the pose is reached wherever the dancer is then
   SendKey(key, *key.frame);
 }
 
@@ -181,7 +182,7 @@ void LiveDance::Refuse(const std::string& reason) {
   ++since_.keys_refused;
 }
 
-// The last key that is too near to another at this frame.
+// Returns the last key that would be too near to one at this frame.
 std::optional<int64_t> LiveDance::KeyNear(int64_t frame) const {
   const int64_t least = FrameAt(kMinTransitionSeconds);
   const auto after = keys_.upper_bound(frame + least);
@@ -281,7 +282,7 @@ void LiveDance::TakeFrames(const client::FrameBlock& block) {
 
 void LiveDance::Note(const std::string& text) {
   const std::lock_guard lock(mutex_);
-  // Anybody who reaches the port can send names.
+  // Limits notes, because anybody who reaches the OSC port can send names.
   if (++notes_ <= kMaxNotes) observer_.note(Printable(text.substr(0, kMaxNoteBytes)));
 }
 

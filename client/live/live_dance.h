@@ -32,60 +32,61 @@ struct LiveOptions {
   std::vector<client::KeyPose> keys = {};  ///< known from the beginning
   std::map<std::string, Pose> poses = {};  ///< for cues, by name
   double ahead_s = 1;                      ///< least delay from a cue to its pose, on a beat
-  double look_ahead_s = 0.3;               ///< nearer frames are already danced
-  BeatHint beats = {};                     ///< about those that are heard
+  double look_ahead_s = 0.3;               ///< frames nearer than this are already generated
+  BeatHint beats = {};                     ///< a hint about the beats of the music
   double seconds = std::numeric_limits<double>::infinity();  ///< limit of the music
   int most_keys = kMaxKeys;  ///< limit of the server for one dance, including keys taken back
 };
 
-/// Progress: frames and keys since the last report, and the present pulse.
+/// Progress of a live dance: frames and keys since the last report, and the present tempo.
 struct LiveFigures {
-  double seconds = 0;  ///< of music so far
+  double seconds = 0;  ///< length of the music so far
   int64_t frames = 0, late = 0;
-  double most_late_ms = 0;           ///< of the late ones
-  std::optional<double> tempo = {};  ///< beats a minute that are danced to
+  double most_late_ms = 0;           ///< the largest delay of a late frame
+  std::optional<double> tempo = {};  ///< beats per minute of the dance
   double confidence = 0;
   int keys_taken = 0, keys_danced = 0, keys_refused = 0;
 };
 
 /// Callbacks during a dance, one thread at a time.
 struct LiveObserver {
-  std::function<bool()> go_on;  ///< called before each piece of music
+  std::function<bool()> go_on;  ///< called before each piece of music; false ends the dance
   std::function<void(const LiveFigures&)>
       figures;  ///< called every second, and once at the end for everything
-  std::function<void(const std::string&)> note;  ///< for people, printable; a few per second
-  /// The latest failure that the client has retried, if any. May be empty.
+  std::function<void(const std::string&)> note;  ///< called with printable notes, a few per second
+  /// Returns the latest failure that the client has retried, if any. May be empty.
   std::function<std::optional<Error>()> failure = {};
-  PosePlayer::Show show = {};  ///< shows frames in time; may be empty
+  PosePlayer::Show show = {};  ///< shows frames at their times; may be empty
 };
 
-/// Dances to live music. Each frame is shown after its music by the model's look-ahead, one piece
-/// of sound, and 50 ms; frames that come later are late.
+/// Dances to live music. Each frame is shown later than its music by the sum of the model's
+/// look-ahead, one piece of sound, and 50 ms. Frames that arrive after that are late.
 class LiveDance {
  public:
   LiveDance(const client::Client& client, const client::ModelDescription& model,
             LiveOptions options, LiveObserver observer);
   ~LiveDance();
 
-  /// Runs until the music ends or `go_on` is false. Throws Error if the dance fails, or is refused
-  /// until the music is over; keeps the frames received. `midi`: a source of beats, or null.
+  /// Dances until the music ends or `go_on` returns false. Throws Error if the dance fails, or if
+  /// it is refused until the music is over; keeps the received frames. `midi`: a source of beats,
+  /// or null.
   void Run(Sound& sound, std::span<const std::unique_ptr<Cues>> cues, MidiClock* midi = nullptr);
 
   const client::Header& header() const { return header_; }
   const Motion& motion() const { return motion_; }
   const std::vector<Contacts>& contacts() const { return contacts_; }
-  /// The server's other messages, and its report once the dance has ended in order.
+  /// The server's other messages, and its report once the dance has ended normally.
   const std::vector<client::Beat>& beats() const { return beats_; }
   const std::vector<client::Warning>& warnings() const { return warnings_; }
   const std::optional<client::Report>& report() const { return report_; }
   /// The keys that the server reported as reached.
   const std::vector<client::KeyReached>& reached() const { return reached_; }
-  /// The keys that were danced, in order of time; of a dance that was cut off, those reached.
-  /// Throws Error(kInternal) if the server names one that it was not sent.
+  /// The keys that were danced, in order of time; for an interrupted dance, those reached. Throws
+  /// Error(kInternal) if the server names a key that it was not sent.
   std::vector<client::KeyPose> DancedKeys() const;
 
  private:
-  // Runs on the thread of Run.
+  // The functions below run on the thread of Run.
   void Play(Sound& sound, std::span<const std::unique_ptr<Cues>> cues, MidiClock* midi);
   void SendBeats(BeatsAhead ahead, double now);
   void Follow(const Cue& cue, double now);
@@ -97,7 +98,7 @@ class LiveDance {
   void ShowFigures(double seconds);
   void RequireBegun();
 
-  // Runs on the reading thread.
+  // The functions below run on the reading thread.
   void Read();
   void Take(const client::Message& message);
   void TakeFrames(const client::FrameBlock& block);

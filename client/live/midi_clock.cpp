@@ -17,11 +17,11 @@ namespace {
 
 constexpr uint8_t kTick = 0xF8, kStart = 0xFA, kContinue = 0xFB, kStop = 0xFC;
 constexpr int64_t kBeat = 24;  // ticks
-// Most and least ticks for the tempo: each is late by up to a piece of sound, which is 1 % over
-// four beats.
+// The largest and least number of ticks for estimating the tempo. Each tick is late by up to a
+// piece of sound, which is 1 % over four beats.
 constexpr size_t kMaxTicks = 8 * kBeat, kMinTicks = 4 * kBeat;
 constexpr int kAhead = 8;           // beats: about the reach of transitions
-constexpr double kMinPeriod = 0.2;  // seconds a beat; faster ones would exceed the limit of beats
+constexpr double kMinPeriod = 0.2;  // seconds per beat; less would exceed the limit of beats
 constexpr size_t kMaxBytes = size_t{1} << 17;  // per read: twice what a pipe holds
 constexpr double kPauseSeconds = 0.25;         // between ticks, longer than at the slowest tempo
 
@@ -45,7 +45,7 @@ MidiClock::MidiClock(const std::string& device)
 MidiClock::~MidiClock() { close(file_); }
 
 std::vector<double> MidiClock::Take(double now) {
-  // Bytes since the last piece of sound are half a piece old on average.
+  // Bytes received since the last piece of sound are half a piece old on average.
   const double then = now - 0.5 * kPieceSeconds;
   std::vector<double> beats;
   std::array<uint8_t, 256> bytes;

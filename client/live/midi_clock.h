@@ -8,8 +8,8 @@
 
 namespace choreo::live {
 
-/// Beats from a MIDI clock: a DJ program, a drum machine. 24 ticks make a beat, starting with the
-/// first after Start. Not thread-safe.
+/// Predicts beats from a MIDI clock, such as that of a DJ program or a drum machine. A beat has 24
+/// ticks, of which the first follows Start. Not thread-safe.
 class MidiClock {
  public:
   /// `device`: a source of raw MIDI, such as /dev/snd/midiC1D0, or a named pipe. Throws
@@ -20,10 +20,10 @@ class MidiClock {
   MidiClock(const MidiClock&) = delete;
   MidiClock& operator=(const MidiClock&) = delete;
 
-  /// Reads, without blocking, the bytes that arrived until `now`, in seconds of the music. From the
-  /// fifth beat on, returns the next eight beats at every second one; otherwise none. Throws
-  /// Error(kUnavailable) if the device is lost, Error(kInvalidArgument) if it sends more than MIDI
-  /// can.
+  /// Reads, without blocking, the bytes that arrived until `now`, in seconds of the music. At every
+  /// second beat, from the fifth on, returns the next eight beats; otherwise returns none. Throws
+  /// Error(kUnavailable) if the device is lost, and Error(kInvalidArgument) if it sends more than
+  /// MIDI can.
   std::vector<double> Take(double now);
   /// Whether the clock was started and has not been stopped.
   bool runs() const { return tick_.has_value(); }
@@ -34,7 +34,7 @@ class MidiClock {
 
   std::string device_;
   int file_;
-  std::optional<int64_t> tick_;  // the last one; none: the clock is stopped
+  std::optional<int64_t> tick_;  // number of the last tick; none: the clock is stopped
   std::deque<double> times_;     // of recent ticks
 };
 

@@ -10,7 +10,7 @@
 
 namespace choreo::live {
 
-/// Predicts beats and repeats from live music of any format, ahead of a dance.
+/// Predicts the beats and repeats of live music, in any sample format, ahead of a dance.
 class MusicEar {
  public:
   struct Ahead {

@@ -24,7 +24,7 @@ std::optional<Passage> PassageEar::Hear(std::span<const float> mono) {
     if (lag == sent_lag_ && (!lag || now - sent_at_ < kEvery)) continue;
     const double from = static_cast<double>(now) * PassageListener::kMomentSeconds;
     if (from >= kMaxAudioSeconds) break;
-    // An ended passage has no length: it revokes what was announced.
+    // A passage without length ends the repeat: it revokes the announced passage.
     const double behind =
         static_cast<double>(lag ? *lag : *sent_lag_) * PassageListener::kMomentSeconds;
     found = Passage{from, lag ? std::min<double>(from + kAheadSeconds, kMaxAudioSeconds) : from,

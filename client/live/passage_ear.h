@@ -9,14 +9,14 @@
 
 namespace choreo::live {
 
-/// Detects whether live music repeats, and how it then continues.
+/// Detects whether live music repeats, and predicts how it then continues.
 class PassageEar {
  public:
-  /// How far ahead of the music it predicts, seconds: as far as transitions reach.
+  /// How far ahead of the music passages are predicted, seconds: the length of a transition.
   static constexpr double kAheadSeconds = 4;
 
-  /// Takes the next mono samples at 22 050 Hz. Returns a passage once a second while the music
-  /// repeats, and where a repeat begins or ends.
+  /// Takes the next mono samples at 22 050 Hz. Returns a passage when a repeat begins or ends, and
+  /// once a second while the music repeats.
   std::optional<Passage> Hear(std::span<const float> mono);
 
  private:

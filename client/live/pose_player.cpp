@@ -37,7 +37,7 @@ void PosePlayer::Play() {
   while (true) {
     changed_.wait(lock, [this] { return stop_ || !waiting_.empty(); });
     if (stop_) return;
-    // Only this thread removes the first; pushes append.
+    // Only this thread removes the first frame; Push appends.
     const auto& [frame, pose] = waiting_.front();
     if (changed_.wait_until(lock, Due(frame), [this] { return stop_; })) return;
     lock.unlock();

@@ -14,12 +14,12 @@
 
 namespace choreo::live {
 
-/// Shows a dance's frames at their times, on its own thread. Shows late frames at once.
+/// Shows a dance's frames at their times, on its own thread. Shows late frames immediately.
 /// Thread-safe.
 class PosePlayer {
  public:
   using Clock = std::chrono::steady_clock;
-  /// `seconds` of the dance; called in frame order.
+  /// Shows a pose at a second of the dance. Called in the order of frames.
   using Show = std::function<void(const Pose& pose, double seconds)>;
 
   /// Shows frame f at f / `fps` seconds after `start`.
@@ -30,7 +30,7 @@ class PosePlayer {
 
   void Push(int64_t first_frame, std::span<const Pose> poses);
   Clock::time_point Due(int64_t frame) const;
-  /// Whether everything pushed has been shown, waiting at most `patience`.
+  /// Whether all pushed frames have been shown. Waits for at most `patience`.
   bool Shown(std::chrono::milliseconds patience = std::chrono::milliseconds(50));
 
  private:

@@ -16,7 +16,7 @@
 namespace choreo::live {
 namespace {
 
-// Joints by Skeleton's names, and VRM's bones. Omits SMPL's hands, which turn nothing.
+// Joints by Skeleton's names, and VRM's bones. Omits SMPL's hands, which move no other joint.
 constexpr std::pair<const char*, const char*> kBones[] = {
     {"spine1", "Spine"},
     {"spine2", "Chest"},
@@ -41,7 +41,7 @@ constexpr std::pair<const char*, const char*> kBones[] = {
     {"right_foot", "RightToes"},
 };
 
-/// All messages for one time.
+/// The messages for one moment.
 class Bundle {
  public:
   Bundle() : bundle_(lo_bundle_new(lo_timetag{0, 1})) {}  // OSC's "at once"
@@ -100,7 +100,7 @@ struct VmcSender::Impl {
     for (const auto& [joint, name] : kBones) {
       if (const int found = skeleton.Find(joint); found >= 0) bones.push_back({found, name});
     }
-    // The host is resolved on sending; this announces a dancer.
+    // Sends a first bundle, which announces a dancer, because the host is resolved only on sending.
     Bundle bundle;
     bundle.Add("/VMC/Ext/OK", int32_t{0});
     if (!bundle.SendTo(address.get())) {
