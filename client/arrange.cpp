@@ -13,10 +13,11 @@ namespace {
 
 int64_t Frames(const FinishedDance& dance) { return std::ssize(dance.motion.frames); }
 
-/// The model's frame that is nearest before, or after, this one of a dance.
+/// Converts a frame to a rate that is `rate` times lower. Rounds down, with a tolerance.
 int64_t Before(int64_t frame, double rate) {
   return static_cast<int64_t>(std::floor(static_cast<double>(frame) / rate + kOnFrame));
 }
+/// Converts a frame to a rate that is `rate` times lower. Rounds up, with a tolerance.
 int64_t After(int64_t frame, double rate) {
   return static_cast<int64_t>(std::ceil(static_cast<double>(frame) / rate - kOnFrame));
 }
@@ -93,7 +94,7 @@ EditedDance Join(const Client& client, FinishedDance first, const FinishedDance&
   const double rate = first.motion.fps / options.model.fps;
   const int64_t last = Frames(first) - 1;
   const int64_t begin = last + After(gap, 1 / rate);
-  // All frames between are danced anew.
+  // Generates all frames between the two dances.
   FinishedDance between = PartOf(first, last, last + 1);
   between.motion.frames.resize(static_cast<size_t>(begin - last) - 1,
                                between.motion.frames.front());

@@ -46,16 +46,16 @@ struct Options {
   /// File of the token that the server needs; reread for each call, so that it can be renewed.
   /// Requires `tls`, unless all addresses are on this machine.
   std::filesystem::path token_file = {};
-  double connect_timeout_s = 5;  ///< per attempt at one address
+  double connect_timeout_s = 5;  ///< limit of one attempt to connect to one address, seconds
   /// Seconds after which a server that sends nothing during a call, not even answers to pings,
   /// counts as lost. At least kMinSilence; 0: never. Dances may pause longer.
   double silence_s = 5;
-  double deadline_s = 0;  ///< for a call, from its first attempt to its last frame; 0: none
+  double deadline_s = 0;  ///< seconds from a call's first attempt to its last frame; 0: no limit
   /// Seconds for which to keep retrying, at one address or all of them, since a call last made
   /// progress. This is a time, not a count, because servers take time to come back. 0: no retries,
   /// so no resumption either.
   double retry_s = 10;
-  double first_backoff_s = 0.1;  ///< between attempts; doubled each time, up to 2 s
+  double first_backoff_s = 0.1;  ///< seconds before the first retry; doubled each time, up to 2 s
   /// Resumes on a server with another fingerprint if no server with the same one is left. The dance
   /// then continues differently: smoothly or, before the first continuation, with that server's own
   /// frames. `Resumed` reports it.

@@ -63,7 +63,7 @@ struct Gap {
 struct EditedDance {
   FinishedDance dance = {};
   int64_t first_changed = 0;           ///< frame of the dance, at its own rate
-  int64_t end_changed = 0;             ///< the frame after the last changed one, likewise
+  int64_t end_changed = 0;             ///< the frame after the last changed one, at its own rate
   std::vector<KeyReached> keys = {};   ///< the keys that were set
   std::vector<Warning> warnings = {};  ///< from the server, and about knees bent backwards
 };
