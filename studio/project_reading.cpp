@@ -123,7 +123,7 @@ void TellDancers(const ProjectFile& request, const StudioContext& context,
   }
 }
 
-/// All but keys and dancers.
+/// Reads a project, except for keys and dancers.
 void Tell(const authoring::Project& read, const std::string& name, const StudioContext& context,
           const authoring::Counts& counts, Project* said) {
   said->set_song(read.song);

@@ -41,7 +41,7 @@ Error CurrentError() {
 
 // One mutex guards the queue's state. It is never held during calls to jobs, except Cancelled.
 struct SampleQueue::Impl {
-  /// When a job is due, in seconds, and then in the order of submission.
+  /// Orders jobs by when they are due, in seconds, and then by submission.
   using Due = std::pair<double, uint64_t>;
 
   /// A job from its submission until its OnDone.
@@ -54,7 +54,7 @@ struct SampleQueue::Impl {
   };
   using Entries = std::vector<std::unique_ptr<Entry>>;
 
-  /// Jobs in the order in which they are due.
+  /// Jobs ordered by when they are due.
   class Line {
    public:
     size_t size() const { return dances_.size() + bulk_.size(); }
@@ -76,7 +76,7 @@ struct SampleQueue::Impl {
       auto& like = entry.is_bulk ? bulk_ : dances_;
       return std::move(like.extract(entry.due).mapped());
     }
-    /// Takes all that `chosen` chooses.
+    /// Removes and returns all jobs that `chosen` selects.
     Entries TakeAll(const auto& chosen) {
       Entries all;
       for (auto* like : {&dances_, &bulk_}) {
@@ -93,7 +93,7 @@ struct SampleQueue::Impl {
     std::map<Due, std::unique_ptr<Entry>> dances_, bulk_;
   };
 
-  /// How much bulk is reserved. Shared with reservations, which may outlive the queue.
+  /// The amount of reserved bulk. Shared with reservations, which may outlive the queue.
   struct Bulk {
     std::mutex mutex;
     int reserved = 0;  ///< Lock: mutex
@@ -179,10 +179,10 @@ void SampleQueue::Impl::Run(Worker* worker) {
   }
 }
 
-// The job that is due first among those that the worker has begun and those that wait. The worker
-// begins it if it waited. Null: there is none.
+// The job that is due first among the worker's begun jobs and the waiting jobs; null if there is
+// none. The worker begins a waiting job.
 SampleQueue::Impl::Entry* SampleQueue::Impl::Next(Worker* worker) {
-  // Bulk has no listener, so it is due after all dances that need something within bulk_yields.
+  // Bulk has no playback, so it is due after all dances that need frames within bulk_yields.
   const double bulk_due = Seconds(Clock::now()) + Seconds(options.bulk_yields);
   const auto [mine_due, mine] = worker->begun.First(bulk_due);
   const auto [fresh_due, fresh] = waiting.First(bulk_due);

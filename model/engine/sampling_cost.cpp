@@ -36,7 +36,7 @@ void WarmUp(Sampler& sampler) {
     spec.beats.push_back(beat);
   const ValidSpec valid(std::move(spec), model);
   const auto sample = [&] { sampler.Begin(valid).Finish(); };
-  sample();  // leaves one-time work out of the measurement
+  sample();  // excludes one-time work from the measurement
   sampler.set_seconds_a_frame(SecondsOf(sample) / valid->frames);
 }
 

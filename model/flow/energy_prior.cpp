@@ -26,7 +26,8 @@ EnergyPrior::Inputs EnergyPrior::Describe(const Known& known) const {
   Inputs inputs;
   inputs.head<kHalf>().setZero();
   inputs[0] = 1;
-  // The past counts only with a key: else it is the dance's own, and would fade or escalate.
+  // The past counts only with a key. Without one it is the dance's own, and its energy would fade
+  // or escalate.
   if (known.key)
     inputs.segment<kHalf - 1>(1) << std::log(std::max(known.surprise, 1e-6)), known.history,
         known.way.value_or(usual_way), known.way_in_world.value_or(usual_way_in_world);

@@ -31,7 +31,7 @@ EnergyPrior::Known KnownOfEnergy(const FlowModelParts& model, const WindowReques
   const auto level = [&](size_t part, double factor) {
     return EnergyLevel(factor, model.config.median_factors[part]);
   };
-  // The way to a key beyond the window says nothing about the window's own energy.
+  // The motion to a key beyond the window does not predict the window's own energy.
   EnergyPrior::Known known{.key = request.key && request.to_key == request.frames,
                            .surprise = window.surprise(),
                            .frames = request.frames,

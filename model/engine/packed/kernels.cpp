@@ -19,7 +19,7 @@ extern const PackedKernels kAvx2Kernels;
 
 namespace {
 
-// Linux lends a process the registers of AMX's tiles when it asks for them.
+// Linux permits a process to use the registers of AMX's tiles on request.
 bool HasTiles() {
   constexpr int kRequestPermission = 0x1023, kTileData = 18;  // <asm/prctl.h>, XFEATURE_XTILEDATA
   constexpr unsigned kTiles = 1U << 24U | 1U << 22U;          // AMX-TILE, AMX-BF16
