@@ -1,4 +1,4 @@
-// What stands for an <audio> element where there is no music.
+// Replaces an <audio> element for dances without music.
 
 export class Clock {
   paused = true;

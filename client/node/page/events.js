@@ -1,9 +1,9 @@
-// A back end's events, over lost connections. (EventSource sends no headers, and never learns that a machine has vanished.)
+// Reads a back end's events and reconnects when a connection is lost. (EventSource sends no headers and does not notice a vanished machine.)
 
-const untilBack = 500; // milliseconds until the rest is asked for
-const silence = 15000; // milliseconds; a back end says something every five seconds
+const untilBack = 500; // milliseconds until it reconnects
+const silence = 15000; // milliseconds without a sign of life; a back end sends one every five seconds
 
-/** What a back end says that refuses: `status` of HTTP and, where there is one, gRPC's `code`. */
+/** A back end's refusal, with its HTTP `status` and, if any, gRPC's `code`. */
 export class Refused extends Error {
   static async by(response) {
     const error = new Refused((await response.text()).trim() || `status ${response.status}`);
@@ -12,12 +12,12 @@ export class Refused extends Error {
 }
 
 /**
- * Yields [event, data] of a URL's server-sent events, the rest by the header Last-Event-ID where a connection was lost, of which `onLost(error)`
- * hears. Ends when the answer is 204: nothing is left. Throws what a back end says that refuses, and where it is gone for `patience` seconds.
+ * Yields [event, data] of a URL's server-sent events. When a connection is lost it calls `onLost(error)` and requests the rest with Last-Event-ID.
+ * Ends at the answer 204: nothing is left. Throws a back end's refusal, or the last error after `patience` seconds without a connection.
  */
 export async function* eventsOf(url, { headers, signal, patience, onLost, fetch = globalThis.fetch }) {
   let last;
-  let since; // the connection is lost
+  let since; // when the connection was lost
   for (;;) {
     const cut = new AbortController();
     const abort = () => cut.abort(signal.reason);
@@ -42,7 +42,7 @@ export async function* eventsOf(url, { headers, signal, patience, onLost, fetch 
       throw new Error('the back end has hung up');
     } catch (error) {
       signal.throwIfAborted();
-      // What has not begun is not begun twice.
+      // A dance that has not begun is not requested twice.
       if (error instanceof Refused || last === undefined) throw error;
       if (since === undefined) onLost?.(error);
       since ??= Date.now();

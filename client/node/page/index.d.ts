@@ -1,26 +1,26 @@
 // For pages: a dance of serveDance() in choreo-client/serve, while it is made. Without any dependency; it works in Node.js, too.
 import type { Character, Shown, Smpl } from '../character/index.js';
 
-/** What the dance is, as soon as it begins. */
+/** Describes the dance when it begins. */
 export interface DanceHeader {
   id: string;
   frame_rate: number;
   skeleton: Smpl;
 }
 
-/** The joints of a pose: the library's by name, or turns of those that it sets, [x, y, z] in radians. */
+/** A library pose by name, or rotation vectors of some joints, [x, y, z] in radians. */
 export type KeyPose =
   | { pose: string; place?: [number, number]; facing?: number; hold?: number; hit?: number }
   | { rotations: Record<string, [number, number, number]> };
 
-/** A key was reached at `time`, or is not danced, because of what `refused` says. */
+/** A key was reached at `time`, or is not danced for the reason `refused`. */
 export interface KeyNews {
   id: string;
   time?: number;
   refused?: string;
 }
 
-/** Of a back end that refuses, also a key: its HTTP `status`, 401 say. Of that, and of a dance that fails: gRPC's `code`, where there is one. */
+/** An error of a back end that refuses a dance or a key, with its HTTP `status` (such as 401), or of a dance that fails. `code`: gRPC's, if any. */
 export interface DanceError extends Error {
   status?: number;
   code?: string;
@@ -66,8 +66,8 @@ export interface PageDance {
   /** The earliest time that a new key can surely have. */
   soon(): number;
   /**
-   * Asks for a key, `soon()` where it says no time, and tells what was asked for. The same id again moves it. Rejects, with a DanceError, what makes no key, or is after the end; onKey hears
-   * of one that comes too late.
+   * Requests a key, at `soon()` if it has no time, and resolves to the request. The same id again moves the key. Rejects with a DanceError for what is
+   * no key, or is after the dance's end. A key that comes too late reaches onKey as refused.
    */
   setKey<K extends KeyPose & { id?: string; time?: number }>(key: K): Promise<K & { id: string; time: number }>;
   removeKey(id: string): Promise<void>;

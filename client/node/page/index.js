@@ -1,12 +1,12 @@
-// A dance of serveDance() on a page. index.d.ts explains it.
+// A dance of serveDance() on a page. See index.d.ts.
 import { requireOptions } from '../character/given.js';
 import { Player, smplPoses } from '../character/index.js';
 import { Clock } from './clock.js';
 import { eventsOf, Refused } from './events.js';
 
-const before = 0.7; // seconds of poses that must be there before music goes on
-const soonest = 2; // seconds from asking for a pose to it, at least
-const beyond = 1.2; // so many after what has come, which is frozen: music that waits falls behind
+const before = 0.7; // seconds of poses needed before the music continues
+const soonest = 2; // the least seconds from a request to its key
+const beyond = 1.2; // seconds after the newest frame: earlier ones are frozen, and music that waits falls behind
 const kept = 1; // seconds of the past, for another character
 const names = ['headers', 'patience', 'fetch', 'onKey', 'onWarning', 'onMoved', 'onLost', 'onEnd'];
 
@@ -23,10 +23,10 @@ class PageDance {
   #stop = new AbortController();
   #header;
   #recent = []; // messages that are not past
-  #seconds = 0; // that were shown last
+  #seconds = 0; // the time shown last
   #worn; // {character, player, add(frames), end()}
   #holds = true; // the music waits for the dancer
-  #clock; // where there is none
+  #clock; // for dances without music
   #clicks = 0;
 
   constructor(url, options) {

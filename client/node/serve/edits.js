@@ -1,11 +1,11 @@
-// What pages may ask for while a dance is made, as its requests.
+// Converts what a page sends during a dance to the dance's requests.
 import { readAndWarn } from '../src/keys.js';
 import { pose } from '../src/pose.js';
 
 /**
- * A key as in key files, by its pose's name; or by the `rotations` of the joints that it sets. Whatever is wrong with the latter the page hears as an
- * event, because of reject_invalid_keys, but for rotations that make no pose: of those pose() tells. `warn(id, message)` hears of a key that will not
- * be danced as it looks.
+ * Reads a key that names a library pose, as in key files, or gives the `rotations` of some joints. pose() throws for rotations that make no pose;
+ * other faults of such a key reach the page as an event (reject_invalid_keys). Calls `warn(id, message)` for a key that will be danced differently
+ * than its pose suggests.
  */
 export function editsOf(body, skeleton, warn) {
   const { id, time, rotations, pose: name } = Object(body);

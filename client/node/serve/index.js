@@ -1,4 +1,4 @@
-// The routes by which pages watch dances and change them. index.d.ts says what each answers.
+// The routes with which pages watch and change dances. For their answers see index.d.ts.
 import { invalid } from '../src/error.js';
 import { hint } from '../src/words.js';
 import { editsOf } from './edits.js';
@@ -6,14 +6,14 @@ import { requireOrder } from './order.js';
 import { Refusal, refusalOf } from './refusal.js';
 import { ServedDance } from './served_dance.js';
 
-const mostBytes = 65536; // of what a page may send
-const untilBack = 0.5; // seconds after which a browser asks for the rest
-const silence = 5; // seconds without news after which a page is told that there are none, so that both see a lost connection
+const mostBytes = 65536; // in a page's request
+const untilBack = 0.5; // seconds until a browser reconnects
+const silence = 5; // seconds between signs of life, by which both sides notice a lost connection
 
 const onFailed = (error) => console.error('serveDance:', error);
 const defaults = { path: '/dance', away: 5, keep: 8 << 20, behind: 10, onResume: undefined, onFailed };
 
-/** index.d.ts explains it. */
+/** See index.d.ts. */
 export function serveDance(client, begin, given = {}) {
   for (const name of Object.keys(given)) if (!Object.hasOwn(defaults, name)) throw invalid(name, `no option; ${hint(name, Object.keys(defaults))}`);
   if (typeof begin !== 'function') throw invalid('begin', `${begin} is no function that says what to dance`);
@@ -37,7 +37,7 @@ class DanceServer {
     for (const dance of this.#dances.values()) this.#end(dance);
   }
 
-  /** Whether it was for us. */
+  /** Returns whether the request was for this server. */
   async answer(request, response) {
     if (!URL.canParse(request.url, 'http://localhost')) return false;
     const url = new URL(request.url, 'http://localhost');
@@ -81,7 +81,7 @@ class DanceServer {
   async #sayKey(id, request, response) {
     const body = await bodyOf(request);
     const dance = this.#find(id);
-    const warnings = []; // told once the key is taken
+    const warnings = []; // sent once the key is accepted
     this.#say(id, response, editsOf(body, dance.model.skeleton, (...warning) => warnings.push(warning)));
     for (const warning of warnings) dance.warn(...warning);
   }
@@ -97,8 +97,8 @@ class DanceServer {
     response.once('close', () => gone.abort());
     const dance = heard === undefined ? await this.#start(url, request) : this.#dances.get(heard.split('/')[0]);
     const next = heard === undefined ? 0 : dance?.after(heard.split('/')[1]);
-    if (next === undefined) return response.writeHead(204).end(); // nothing is left to tell: a browser asks no more
-    // No proxy should collect or press together what is told now.
+    if (next === undefined) return response.writeHead(204).end(); // nothing is left; 204 stops a browser's reconnects
+    // Keeps proxies from buffering or compressing the events.
     const headers = { 'Content-Type': 'text/event-stream', 'Cache-Control': 'no-store, no-transform', 'X-Accel-Buffering': 'no' };
     response.writeHead(200, headers).write(`retry: ${1000 * untilBack}\n\n`);
     clearTimeout(dance.forget);
@@ -115,7 +115,7 @@ class DanceServer {
   async #start(url, request) {
     try {
       const order = await this.#begin(url, request);
-      requireOrder(order); // what can be known to be wrong is told before anything is promised
+      requireOrder(order); // refuses what is known to be wrong before the dance begins
       const dance = new ServedDance(this.#client, order, this.#options);
       this.#dances.set(dance.id, dance);
       return dance;
@@ -124,7 +124,7 @@ class DanceServer {
     }
   }
 
-  /** What a page is told of an error. The back end hears of one that is its own, and `concerns` it. */
+  /** Converts an error for a page. Also calls onFailed, unless the error is a Refusal already or `concerns` rejects it. */
   #told(error, concerns) {
     const refusal = refusalOf(error);
     if (refusal !== error && concerns(refusal)) this.#options.onFailed(error);
@@ -138,7 +138,7 @@ class DanceServer {
   }
 }
 
-/** What a page sent, as JSON; or what a framework has read of it. */
+/** The page's JSON, or the body that a framework has parsed. */
 async function bodyOf(request) {
   if (request.body !== undefined) return request.body;
   let text = '';

@@ -1,4 +1,4 @@
-// Whether what a back end orders can be danced. index.d.ts, DanceOrder, says what there is.
+// Checks a back end's order. For its fields see DanceOrder in index.d.ts.
 import { checked } from '../src/check.js';
 import { invalid } from '../src/error.js';
 import { isObject } from '../src/fields.js';
@@ -6,7 +6,7 @@ import { hint, quoted } from '../src/words.js';
 
 const names = ['seconds', 'music', 'config', 'keys', 'speed'];
 
-/** Throws ChoreoError, naming the field. */
+/** Throws ChoreoError, which names the field, for an invalid order. */
 export function requireOrder(order) {
   if (!isObject(order)) throw invalid('order', `${quoted(order)} is no {${names.join(', ')}}`);
   for (const name of Object.keys(order)) if (!names.includes(name)) throw invalid(name, `no field of an order; ${hint(name, names)}`);

@@ -1,16 +1,16 @@
-// What a page asked for that it does not get, and why, as HTTP has it.
+// Refusals of a page's requests, as HTTP statuses.
 
 export class Refusal extends Error {
   constructor(status, message, code) {
     super(message);
     this.status = status;
-    this.code = code; // of gRPC, where there is one
+    this.code = code; // gRPC's, if any
   }
 }
 
 const statuses = { INVALID_ARGUMENT: 400, RESOURCE_EXHAUSTED: 503, UNAVAILABLE: 503 };
 
-/** What to tell strangers of an error: of what is theirs all, of what is ours little. */
+/** Converts an error for a page: errors in its request in full, errors of the back end without details. */
 export function refusalOf(error) {
   if (error.status >= 400 && error.status < 600) return error;
   const status = statuses[error.code];

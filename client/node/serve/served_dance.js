@@ -1,37 +1,37 @@
-// A dance for a page: paced by the clock, told as server-sent events, which are kept for pages that come back.
+// A dance for a page, paced by the clock. Keeps its server-sent events for pages that reconnect.
 import { randomUUID } from 'node:crypto';
 import { EventEmitter, once } from 'node:events';
 import { setTimeout as sleep } from 'node:timers/promises';
 import { invalid } from '../src/error.js';
 import { Refusal } from './refusal.js';
 
-const settled = 0.5; // seconds: what is nearer than this is settled, and on its way to the page
+const settled = 0.5; // seconds before its time at which a frame is final and sent
 const tick = 0.1; // seconds
 const pieceOfFile = 1 << 20; // bytes
-const mostWaiting = 1000; // keys: a dance has no more
+const mostWaiting = 1000; // keys: the most that a dance has
 
 export class ServedDance {
   id = randomUUID();
-  /** The one that dances, once a server has told. */
+  /** The model, known once a server has answered. */
   model;
   over = false;
   watchers = 0;
-  /** A timer of who forgets it. */
+  /** The timer after which the server forgets it. */
   forget;
   #client;
   #order;
   #options;
   #end = new AbortController();
-  #edits = []; // requests that are still to be said
-  #told = []; // {text, frames: that were told with it}
-  #dropped = 0; // of them, the first ones
-  #bytes = 0; // of those that are kept
-  #frames = 0; // that were told
-  #taken = 0; // of these, by the page that has most
-  #shownRate = Infinity; // of them
+  #edits = []; // requests not yet sent
+  #told = []; // events: {text, frames sent so far}
+  #dropped = 0; // number of forgotten events
+  #bytes = 0; // in the kept events
+  #frames = 0; // sent
+  #taken = 0; // frames received by the page that has most
+  #shownRate = Infinity; // frames per second
   #news = new EventEmitter().setMaxListeners(0);
 
-  /** Dances what `order` says: index.d.ts, DanceOrder. */
+  /** `order`: a DanceOrder of index.d.ts. */
   constructor(client, order, options) {
     this.#client = client;
     this.#order = order;
@@ -55,14 +55,14 @@ export class ServedDance {
     this.#tell('warning', { id, message });
   }
 
-  /** The number of the event after the one that a page calls `last`; undefined where that is forgotten. */
+  /** The number of the event after a page's `last` one; undefined if that event is forgotten. */
   after(last) {
     const next = /^\d+$/.test(last) ? Number(last) + 1 : NaN;
     if (!(next <= this.#dropped + this.#told.length)) throw new Refusal(400, `${last} is no event`);
     return next < this.#dropped ? undefined : next;
   }
 
-  /** Tells a page all from the event `next` on, as fast as it takes it, until nothing is left or it is gone. */
+  /** Sends a page all events from `next` on, as fast as it reads, until none is left or the page is gone. */
   async tell(next, response, signal) {
     ++this.watchers;
     try {
@@ -99,7 +99,7 @@ export class ServedDance {
     const { signal } = this.#end;
     const onRejected = (rejected) => this.#tell('key', { id: rejected.id, refused: this.#whyRefused(rejected) });
     const onResume = (resumed) => {
-      this.#tell('moved', { frame: resumed.frame }); // where to is nobody's business
+      this.#tell('moved', { frame: resumed.frame }); // without the address, which pages need not know
       this.#options.onResume?.(resumed);
     };
     try {
@@ -109,7 +109,7 @@ export class ServedDance {
       for await (const answer of this.#client.streamDance(this.#requests(), { signal, onResume, onRejected })) this.#take(answer);
     } catch (error) {
       if (!signal.aborted) {
-        const message = error.code === 'UNAVAILABLE' ? 'no server dances now' : error.message; // that one names servers
+        const message = error.code === 'UNAVAILABLE' ? 'no server dances now' : error.message; // gRPC's message names servers
         this.#tell('failed', { code: error.code, message, retry_after: error.retryAfter });
         this.#options.onFailed(error);
       }
@@ -119,7 +119,7 @@ export class ServedDance {
     }
   }
 
-  /** As pages count, in seconds. */
+  /** The reason for a page, which counts in seconds. */
   #whyRefused({ code, field, reason, earliest_frame }) {
     const isLate = code === 'REJECTION_CODE_TOO_LATE' || code === 'REJECTION_CODE_FROZEN';
     if (isLate) return `too late: all before ${Math.ceil((100 * Number(earliest_frame)) / this.model.model_frame_rate) / 100} s is settled`;
@@ -140,7 +140,7 @@ export class ServedDance {
     if (summary) this.#tell('over', { frames: Number(summary.report.frames) });
   }
 
-  /** The dance's requests, as its clock comes to them. */
+  /** The dance's requests, each when its clock reaches it. */
   async *#requests() {
     const { config = {}, seconds, music, keys = [], speed = 1 } = this.#order;
     const isFile = ArrayBuffer.isView(music) || music instanceof ArrayBuffer;
