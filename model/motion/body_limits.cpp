@@ -2,21 +2,37 @@
 
 #include <algorithm>
 #include <utility>
+#include <vector>
 
 #include "model/motion/kinematics.h"
 
 namespace choreo {
 
+namespace {
+
+// The speeds of all joints in the step to each pose, metres per second.
+std::vector<Eigen::RowVectorXd> StepSpeeds(const Skeleton& skeleton, const Pose& before,
+                                           std::span<const Pose> poses, double fps) {
+  std::vector<Eigen::RowVectorXd> speeds;
+  Eigen::Matrix3Xd last = JointPositions(skeleton, before);
+  for (const Pose& pose : poses) {
+    Eigen::Matrix3Xd now = JointPositions(skeleton, pose);
+    speeds.emplace_back((now - last).colwise().norm() * fps);
+    last = std::move(now);
+  }
+  return speeds;
+}
+
+}  // namespace
+
 FastStep FindFastestStep(const Skeleton& skeleton, const Pose& before, std::span<const Pose> poses,
                          double fps) {
   FastStep fastest;
-  Eigen::Matrix3Xd last = JointPositions(skeleton, before);
-  for (size_t i = 0; i < poses.size(); ++i) {
-    Eigen::Matrix3Xd now = JointPositions(skeleton, poses[i]);
+  const auto speeds = StepSpeeds(skeleton, before, poses, fps);
+  for (size_t i = 0; i < speeds.size(); ++i) {
     Eigen::Index joint = 0;
-    const double m_per_s = (now - last).colwise().norm().maxCoeff(&joint) * fps;
+    const double m_per_s = speeds[i].maxCoeff(&joint);
     if (m_per_s > fastest.m_per_s) fastest = {m_per_s, static_cast<int>(joint), i};
-    last = std::move(now);
   }
   return fastest;
 }
@@ -28,12 +44,8 @@ double SpeedExcess(const Eigen::RowVectorXd& speeds) {
 double SpeedExcess(const Skeleton& skeleton, const Pose& before, std::span<const Pose> poses,
                    double fps) {
   double most = 0;
-  Eigen::Matrix3Xd last = JointPositions(skeleton, before);
-  for (const Pose& pose : poses) {
-    Eigen::Matrix3Xd now = JointPositions(skeleton, pose);
-    most = std::max(most, SpeedExcess((now - last).colwise().norm() * fps));
-    last = std::move(now);
-  }
+  for (const Eigen::RowVectorXd& speeds : StepSpeeds(skeleton, before, poses, fps))
+    most = std::max(most, SpeedExcess(speeds));
   return most;
 }
 
