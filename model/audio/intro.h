@@ -8,9 +8,10 @@
 
 namespace choreo {
 
-/// The beats of a path, with those before its drums at the drums' tempo if these hear as much of
-/// the intro: a chord a bar fits any tempo, and the path takes the one whose patterns expect least.
-/// Bars are counted back from the drums.
+/// Returns `path` with the beats before its drums recounted at the drums' tempo, in frames of
+/// `onsets`. An intro of one chord per bar fits any tempo, so its own tempo proves nothing. Keeps
+/// the path if its intro already has that tempo, or if the new beats hear less of the intro. Bars
+/// are counted back from the drums. Pure.
 std::vector<BarPointer::Step> CountIntro(std::span<const Onset> onsets,
                                          std::vector<BarPointer::Step> path);
 

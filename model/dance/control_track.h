@@ -146,26 +146,26 @@ class ControlTrackOf {
 
   /// The tracks' warnings if the dance ends before `end`.
   std::vector<Warning> BehindEnd(int64_t end) const {
-    return Asked([&](const auto& track) -> std::optional<Warning> {
+    return WarningsOf([&](const auto& track) -> std::optional<Warning> {
       if constexpr (requires { track.BehindEnd(end); }) return track.BehindEnd(end);
       return std::nullopt;
     });
   }
   /// The tracks' warnings about requests that the reported dance did not meet.
   std::vector<Warning> Missed(const QualityReport& report) const {
-    return Asked([&](const auto& track) -> std::optional<Warning> {
+    return WarningsOf([&](const auto& track) -> std::optional<Warning> {
       if constexpr (requires { track.Missed(report); }) return track.Missed(report);
       return std::nullopt;
     });
   }
 
  private:
-  // The warnings that `ask` returns for the tracks.
-  std::vector<Warning> Asked(const auto& ask) const {
+  // The warnings that `warning_of` returns for the tracks.
+  std::vector<Warning> WarningsOf(const auto& warning_of) const {
     std::vector<Warning> warnings;
     Request::VisitControls(
         [&](size_t /*row*/, const auto& track) {
-          if (auto warning = ask(track)) warnings.push_back(std::move(*warning));
+          if (auto warning = warning_of(track)) warnings.push_back(std::move(*warning));
         },
         tracks_);
     return warnings;

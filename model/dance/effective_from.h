@@ -11,7 +11,7 @@ namespace choreo {
 
 /// A value that applies to transitions that begin at `from` or later. Copies share it.
 template <typename What>
-struct SaidSince {
+struct EffectiveFrom {
   int64_t from;
   std::shared_ptr<const What> what;
 };

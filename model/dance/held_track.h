@@ -8,7 +8,7 @@
 
 #include "model/core/error.h"
 #include "model/core/field.h"
-#include "model/dance/said_since.h"
+#include "model/dance/effective_from.h"
 #include "model/dance/spec_poses.h"
 #include "model/dance/validation.h"
 #include "model/dance/warning.h"
@@ -40,15 +40,16 @@ class HeldTrack {
   /// Fills in the curve of the spec's controls.
   void Fill(const ModelInfo& /*model*/, const std::string& /*key_id*/, TransitionSpec* spec,
             ControlCurve* curve, std::vector<Warning>* /*warnings*/) const {
-    const auto said = std::find_if(requests_.rbegin(), requests_.rend(),
-                                   [&](const auto& one) { return one.from <= spec->first_frame; });
-    if (said == requests_.rend()) return;
+    const auto latest = std::find_if(requests_.rbegin(), requests_.rend(), [&](const auto& one) {
+      return one.from <= spec->first_frame;
+    });
+    if (latest == requests_.rend()) return;
     const auto channels = static_cast<Eigen::Index>(curve->requested.size());
-    const auto rows = Eigen::Map<const Eigen::MatrixXd>(said->what->values.data(), channels,
-                                                        std::ssize(said->what->values) / channels);
+    const auto rows = Eigen::Map<const Eigen::MatrixXd>(
+        latest->what->values.data(), channels, std::ssize(latest->what->values) / channels);
     curve->values.resize(channels, spec->frames);
     for (int i = 0; i < spec->frames; ++i) {
-      const auto [row, share] = PlaceAmong(said->what->frames, spec->first_frame + i);
+      const auto [row, share] = PlaceAmong(latest->what->frames, spec->first_frame + i);
       const auto at = static_cast<Eigen::Index>(row);
       curve->values.col(i) = rows.col(at);
       if (share > 0) curve->values.col(i) += double{share} * (rows.col(at + 1) - rows.col(at));
@@ -56,7 +57,7 @@ class HeldTrack {
   }
 
  private:
-  std::vector<SaidSince<Request>> requests_;
+  std::vector<EffectiveFrom<Request>> requests_;
 };
 
 }  // namespace choreo

@@ -53,12 +53,12 @@ class HandOver {
   /// Calls `submit` with a job that hands out, unless one is already waiting. If the queue refuses
   /// the job, this thread hands out the rest.
   void ToWorker(std::shared_ptr<Owner> owner, double deadline, const auto& submit) {
-    if (is_asked_.exchange(true)) return;
+    if (is_requested_.exchange(true)) return;
     Owner& here = *owner;
     try {
       submit(std::make_shared<Job>(std::move(owner), deadline));
     } catch (const Error&) {
-      is_asked_ = false;
+      is_requested_ = false;
       while (here.HandOut()) {
       }
     }
@@ -71,13 +71,13 @@ class HandOver {
         : owner_(std::move(owner)), deadline_(deadline) {}
 
     bool Continue(Sampler& /*sampler*/) override {
-      std::atomic<bool>& is_asked = owner_->hand_over().is_asked_;
-      is_asked = false;  // from here on, other threads may request another job
-      return owner_->HandOut() && !is_asked.exchange(true);
+      std::atomic<bool>& is_requested = owner_->hand_over().is_requested_;
+      is_requested = false;  // from here on, other threads may request another job
+      return owner_->HandOut() && !is_requested.exchange(true);
     }
     void OnDone(const Error* failure) noexcept override {
       if (failure == nullptr) return;
-      owner_->hand_over().is_asked_ = false;
+      owner_->hand_over().is_requested_ = false;
       owner_->OnFailure(*failure);
     }
     double Deadline() const override { return deadline_; }
@@ -89,7 +89,7 @@ class HandOver {
     const double deadline_;
   };
 
-  std::atomic<bool> is_asked_ = false;
+  std::atomic<bool> is_requested_ = false;
 };
 
 }  // namespace choreo

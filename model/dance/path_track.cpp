@@ -19,10 +19,10 @@ bool HasHeights(const PathCurve* curve) { return curve != nullptr && curve->has_
 // Finds the curve for a transition from `first_frame` on, including the frame directly before it.
 const PathCurve* PathTrack::CurveAt(int64_t frame, int64_t first_frame) const {
   const int64_t known = std::min(frame, first_frame);
-  const auto said = std::find_if(paths_.rbegin(), paths_.rend(), [&](const auto& path) {
+  const auto latest = std::find_if(paths_.rbegin(), paths_.rend(), [&](const auto& path) {
     return path.from <= known && path.what->Covers(frame);
   });
-  return said != paths_.rend() ? said->what.get() : nullptr;
+  return latest != paths_.rend() ? latest->what.get() : nullptr;
 }
 
 Pose PathTrack::Stance(const Skeleton& skeleton, int64_t first_frame,

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "model/dance/root_path.h"
-#include "model/dance/said_since.h"
+#include "model/dance/effective_from.h"
 #include "model/dance/spec_poses.h"
 #include "model/dance/warning.h"
 
@@ -45,7 +45,7 @@ class PathTrack {
   const PathCurve* CurveAt(int64_t frame, int64_t first_frame) const;
   void WarnOfDistance(const LeadRequest& request, std::vector<Warning>* warnings) const;
 
-  std::vector<SaidSince<PathCurve>> paths_;
+  std::vector<EffectiveFrom<PathCurve>> paths_;
 };
 
 }  // namespace choreo

@@ -110,12 +110,12 @@ void VelocityTrack::Fill(const ModelInfo& model, const std::string& /*key_id*/,
   usual.factors = {1};
   for (int part = 0; part < kBodyParts; ++part) {
     const auto body_part = static_cast<BodyPart>(part);
-    const auto said = std::find_if(requests_.rbegin(), requests_.rend(), [&](const auto& one) {
+    const auto latest = std::find_if(requests_.rbegin(), requests_.rend(), [&](const auto& one) {
       return one.from <= first_frame && Names(*one.what, body_part);
     });
-    const bool is_asked = said != requests_.rend();
-    curve->requested[static_cast<size_t>(part)] = is_asked;
-    const VelocityRequest& asked = is_asked ? *said->what : usual;
+    const bool is_requested = latest != requests_.rend();
+    curve->requested[static_cast<size_t>(part)] = is_requested;
+    const VelocityRequest& asked = is_requested ? *latest->what : usual;
     for (int frame = 0; frame < spec->frames; ++frame)
       curve->values(part, frame) = SpeedAt(asked, first_frame + frame, body_part, model);
   }

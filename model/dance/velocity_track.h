@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "model/dance/said_since.h"
+#include "model/dance/effective_from.h"
 #include "model/dance/spec_poses.h"
 #include "model/dance/warning.h"
 #include "model/messages/quality_report.h"
@@ -37,7 +37,7 @@ class VelocityTrack {
   std::optional<Warning> Missed(const QualityReport& report) const;
 
  private:
-  std::vector<SaidSince<VelocityRequest>> requests_;
+  std::vector<EffectiveFrom<VelocityRequest>> requests_;
 };
 
 }  // namespace choreo
