@@ -8,7 +8,7 @@
 #include "model/dance/audio_feed.h"
 #include "model/dance/beat_report.h"
 #include "model/dance/body_watch.h"
-#include "model/dance/control_track.h"
+#include "model/dance/controls/control_track.h"
 #include "model/dance/dance_sink.h"
 #include "model/dance/dance_start.h"
 #include "model/dance/mailbox.h"

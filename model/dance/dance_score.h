@@ -7,7 +7,7 @@
 
 #include "model/audio/music_analysis.h"
 #include "model/dance/audio_feed.h"
-#include "model/dance/control_track.h"
+#include "model/dance/controls/control_track.h"
 #include "model/dance/dance_music.h"
 #include "model/dance/dance_start.h"
 #include "model/dance/recurrence.h"

@@ -8,7 +8,7 @@
 #include "model/core/grid.h"
 #include "model/core/limits.h"
 #include "model/core/valid.h"
-#include "model/dance/control_track.h"
+#include "model/dance/controls/control_track.h"
 #include "model/dance/spec_poses.h"
 #include "model/dance/warning.h"
 #include "model/messages/dance_manner.h"

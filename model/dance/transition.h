@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "model/dance/control_track.h"
+#include "model/dance/controls/control_track.h"
 #include "model/dance/dance_music.h"
 #include "model/dance/spec_poses.h"
 #include "model/dance/timeline.h"

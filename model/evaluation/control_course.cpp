@@ -1,6 +1,6 @@
 #include "model/evaluation/control_course.h"
 
-#include "model/dance/control_track.h"
+#include "model/dance/controls/control_track.h"
 #include "model/dance/quality_meter.h"
 #include "model/metrics/control_figures.h"
 #include "model/metrics/joint_track.h"

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "model/dance/root_path.h"
+#include "model/dance/controls/path_curve.h"
 #include "model/evaluation/evaluation.h"
 #include "model/metrics/control_figures.h"
 

@@ -10,7 +10,7 @@
 namespace choreo {
 
 // The requests of controls, with the fields of the API's messages, of which one is `frames`, at the
-// model's rate. dance/control_track.h validates them.
+// model's rate. dance/controls/control_track.h validates them.
 
 /// Where the root goes: at least 2 points in time, metres, world frame. Either one in every
 /// frame, or a few with a smooth curve through them. Keys override it.

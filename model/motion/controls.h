@@ -70,9 +70,9 @@ struct ControlCurve {
 };
 
 /// One curve per row of a table. The root path: where the root should be in each frame, from the
-/// history's last root to the target's (dance/path_lead.h bends it there); its heights may be a
-/// guess. Velocity factors: the speed of each part (motion/velocity_factors.h); parts not requested
-/// have the model's reference or are unknown. The model chooses what is left empty.
+/// history's last root to the target's (dance/controls/path_lead.h bends it there); its heights may
+/// be a guess. Velocity factors: the speed of each part (motion/velocity_factors.h); parts not
+/// requested have the model's reference or are unknown. The model chooses what is left empty.
 class Controls {
  public:
   Controls() : Controls(kControls) {}

@@ -10,7 +10,7 @@
 #include "client/authoring/project_file.h"
 #include "client/cli/asked_controls.h"
 #include "client/cli/authoring_options.h"
-#include "model/dance/control_track.h"
+#include "model/dance/controls/control_track.h"
 #include "model/dance/dance_score.h"
 #include "model/flow/window_features.h"
 #include "proto/wire/control_messages.h"

@@ -1,4 +1,4 @@
-#include "model/dance/control_track.h"
+#include "model/dance/controls/control_track.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -63,7 +63,7 @@ TEST_F(DenseControlsTest, UnplacedKeyIsMetAtItsHeight) {
     EXPECT_EQ(dense[kRootPath].values.row(axis), open[kRootPath].values.row(axis));
 }
 
-// Bent to history and key it comes from dance/path_lead.h.
+// Bent to history and key it comes from dance/controls/path_lead.h.
 TEST_F(DenseControlsTest, GivenControlsStay) {
   spec_.controls[kRootPath].values.setRandom(3, 60);
   spec_.controls[kVelocityFactors].values.setConstant(kBodyParts, 60, 0.07F);

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "model/dance/root_path.h"
-#include "model/dance/effective_from.h"
+#include "model/dance/controls/held_track.h"
+#include "model/dance/controls/path_curve.h"
 #include "model/dance/spec_poses.h"
 #include "model/dance/warning.h"
 

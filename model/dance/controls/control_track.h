@@ -11,10 +11,10 @@
 #include <vector>
 
 #include "model/core/error.h"
-#include "model/dance/held_track.h"
-#include "model/dance/path_track.h"
+#include "model/dance/controls/held_track.h"
+#include "model/dance/controls/path_track.h"
+#include "model/dance/controls/velocity_track.h"
 #include "model/dance/spec_poses.h"
-#include "model/dance/velocity_track.h"
 #include "model/dance/warning.h"
 
 namespace choreo {

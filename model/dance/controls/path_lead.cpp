@@ -1,4 +1,4 @@
-#include "model/dance/path_lead.h"
+#include "model/dance/controls/path_lead.h"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "model/dance/velocity_track.h"
+#include "model/dance/controls/velocity_track.h"
 
 #include <algorithm>
 #include <cmath>

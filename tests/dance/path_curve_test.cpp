@@ -1,16 +1,16 @@
-#include "model/dance/root_path.h"
+#include "model/dance/controls/path_curve.h"
 
 #include <gtest/gtest.h>
 
 #include <limits>
 #include <numbers>
 
-#include "model/dance/path_lead.h"
+#include "model/dance/controls/path_lead.h"
 #include "model/dance/timeline.h"
 #include "model/motion/rotation.h"
 #include "tests/support/expect_error.h"
 
-namespace choreo::root_path_test {
+namespace choreo::path_curve_test {
 
 RootPath Path(std::vector<int64_t> frames, const std::vector<Eigen::Vector3d>& points,
               bool has_heights = false) {
@@ -252,4 +252,4 @@ TEST_F(LeadTest, ChangesOnlyItsAxes) {
   for (int frame = 1; frame < 90; ++frame) EXPECT_GE(lead.path(1, frame), lead.path(1, frame - 1));
 }
 
-}  // namespace choreo::root_path_test
+}  // namespace choreo::path_curve_test

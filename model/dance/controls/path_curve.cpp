@@ -1,4 +1,4 @@
-#include "model/dance/root_path.h"
+#include "model/dance/controls/path_curve.h"
 
 #include <algorithm>
 #include <cmath>

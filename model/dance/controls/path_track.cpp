@@ -1,9 +1,9 @@
-#include "model/dance/path_track.h"
+#include "model/dance/controls/path_track.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "model/dance/path_lead.h"
+#include "model/dance/controls/path_lead.h"
 #include "model/motion/kinematics.h"
 
 namespace choreo {
