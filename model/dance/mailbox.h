@@ -79,7 +79,8 @@ class Mailbox {
   }
 
   const std::shared_ptr<Listener> listener_;
-  const Error failure_{ErrorCode::kInternal, "", "it could not go on, maybe for want of memory"};
+  const Error failure_{ErrorCode::kInternal, "",
+                       "the dance cannot continue; the server may be out of memory"};
   mutable std::mutex mutex_;
   Pacer pacer_;
   std::deque<Call> calls_;

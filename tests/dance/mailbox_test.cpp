@@ -47,7 +47,7 @@ class MailboxTest : public testing::Test {
   std::promise<void> entered, gate;
 };
 
-const std::string kGaveUp = "error: it could not go on, maybe for want of memory";
+const std::string kGaveUp = "error: the dance cannot continue; the server may be out of memory";
 
 TEST_F(MailboxTest, OneThreadMakesAllCallsInTheOrderOfPosts) {
   std::thread first = Enter();
