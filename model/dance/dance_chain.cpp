@@ -14,28 +14,22 @@ constexpr size_t kMaxAhead = 1;  // transitions sampled ahead of the one being h
 }  // namespace
 
 /// One transition of the chain, from its submission until its last frame is handed out.
-class DanceChain::Job : public SampleJob {
+class DanceChain::Transition : public Job {
  public:
-  Job(std::shared_ptr<DanceChain> chain, DanceScore::Next next)
-      : chain_(std::move(chain)),
+  Transition(std::shared_ptr<DanceChain> chain, DanceScore::Next next)
+      : Job(chain, static_cast<int>(next.inputs.segment.to - next.inputs.segment.from),
+            chain->start_time_ + chain->Seconds(next.inputs.segment.from - chain->first_frame_)),
+        chain_(*chain),
         segment_(next.inputs.segment),
-        deadline_(chain_->start_time_ + chain_->Seconds(segment_.from - chain_->first_frame_)),
         next_(std::move(next)) {}
-
-  bool Continue(Sampler& sampler) override {
-    if (!slices_) slices_.emplace(Work(sampler));
-    return slices_->Continue();
-  }
 
   void OnDone(const Error* failure) noexcept override {
     if (failure == nullptr || retired_) return;
-    if (sampled_) return chain_->OnFailure(*failure);
-    chain_->React([this, failure] { Fail(*failure); });
+    if (sampled_) return chain_.OnFailure(*failure);
+    chain_.React([this, failure] { Fail(*failure); });
   }
 
-  double Deadline() const override { return deadline_; }
-  int frames() const override { return static_cast<int>(segment_.to - segment_.from); }
-  bool Cancelled() const override { return retired_ || chain_->cancelled_; }
+  bool Cancelled() const override { return retired_ || Job::Cancelled(); }
 
   /// Cancels a transition that the chain no longer needs; the queue drops it.
   void Retire() { retired_ = true; }
@@ -49,50 +43,39 @@ class DanceChain::Job : public SampleJob {
   /// Constant once sampled.
   const std::vector<Warning>& warnings() const { return warnings_; }
   const std::vector<Beat>& beats() const { return beats_; }
-  const TransitionRun& run() const { return *run_; }
   const DanceFrame& FrameAt(int64_t frame) const {
-    return run_->frames()[static_cast<size_t>(frame - segment_.from)];
+    return run().frames()[static_cast<size_t>(frame - segment_.from)];
   }
   /// The state from which a transition that begins at `frame` starts. `frame` is in this transition
   /// or directly after it.
   DancedState StateBefore(int64_t frame) const {
-    return run_->StateAfter(static_cast<size_t>(frame - segment_.from));
+    return run().StateAfter(static_cast<size_t>(frame - segment_.from));
   }
 
  private:
-  // Prepares and samples the transition, then hands out frames.
-  Slices<> Work(Sampler& sampler) {
-    Prepare(*std::exchange(next_, {}));
-    co_await Pause();
-    co_await run_->Dance(sampler);
-    {
-      std::lock_guard lock(chain_->mutex_);
-      sampled_ = true;
-      chain_->SubmitNext();
-    }
-    do {
-      co_await Pause();
-    } while (chain_->HandOut());
-  }
-
-  void Prepare(DanceScore::Next next) {
-    next.inputs.manner = chain_->manner_;
-    next.inputs.seed = chain_->seed_;
+  TransitionRun Prepare() override {
+    DanceScore::Next next = *std::exchange(next_, {});
+    next.inputs.manner = chain_.manner_;
+    next.inputs.seed = chain_.seed_;
     next.inputs.music = next.music.Hear();
-    PreparedTransition prepared = PrepareTransition(chain_->model_, next.inputs);
+    PreparedTransition prepared = PrepareTransition(chain_.model_, next.inputs);
     beats_ = std::move(next.inputs.music.beats);
-    run_.emplace(std::move(prepared.run));
     warnings_ = std::move(prepared.warnings);
+    return std::move(prepared.run);
   }
 
-  const std::shared_ptr<DanceChain> chain_;
+  Slices<> Finish() override {
+    std::lock_guard lock(chain_.mutex_);
+    sampled_ = true;
+    chain_.Proceed();
+    co_return;
+  }
+
+  DanceChain& chain_;  // kept alive by Job
   const Segment segment_;
-  const double deadline_;
   std::optional<DanceScore::Next> next_;  // until the transition is prepared
-  std::optional<TransitionRun> run_;      // once the transition is prepared
   std::vector<Beat> beats_;
   std::vector<Warning> warnings_;
-  std::optional<Slices<>> slices_;  // the worker's
   std::atomic<bool> sampled_ = false;
   std::optional<Error> failure_;  // guarded by the chain's mutex
   std::atomic<bool> retired_ = false;
@@ -100,20 +83,15 @@ class DanceChain::Job : public SampleJob {
 
 DanceChain::DanceChain(SampleQueue& queue, const ValidDance& config,
                        std::shared_ptr<DanceSink> sink)
-    : queue_(queue),
-      model_(queue.model()),
+    : Delivery(queue, &SampleQueue::Submit, std::move(sink)),
       manner_(*config),
       seed_(config->seed),
       first_frame_(config->FirstFrame()),
-      mailbox_(std::move(sink)),
       audio_(config->audio
                  ? std::make_unique<AudioFeed>(config->audio->sample_rate, config->audio->channels,
                                                config->audio->first_sample, model_.hearing)
                  : nullptr),
       report_(model_, config, audio_.get(), mailbox_),
-      output_(model_.fps, config->output_fps, first_frame_,
-              config->Before().empty() ? std::nullopt
-                                       : std::optional(RoundToFloat(config->Before().back()))),
       start_time_(PlaybackClock()),
       score_(model_, config, audio_.get()),
       next_frame_(first_frame_) {
@@ -130,13 +108,10 @@ void DanceChain::Begin(const ValidDance& config) {
 }
 
 void DanceChain::Apply(const std::function<DanceEvents(DanceScore&)>& change) {
-  {
-    std::lock_guard lock(mutex_);
+  Change([&] {
     if (over()) return;
     for (const DanceEvent& event : change(score_)) PostEvent(mailbox_, event);
-    SubmitNext();
-  }
-  HandOutHere();
+  });
 }
 
 void DanceChain::PushAudio(std::span<const float> interleaved, int64_t first_sample) {
@@ -168,74 +143,15 @@ void DanceChain::HalfClose() {
   });
 }
 
-void DanceChain::SetPaused(bool paused) {
-  paused_ = paused;
-  if (!paused) React([] {});
-}
-
-void DanceChain::Cancel() noexcept {
-  cancelled_ = true;
-  queue_.CheckCancelled();
-  React([this] { mailbox_.PostError(Error(ErrorCode::kCancelled, "", "cancelled")); });
-}
-
-void DanceChain::React(const std::function<void()>& change) noexcept {
-  try {
-    {
-      std::lock_guard lock(mutex_);
-      change();
-      SubmitNext();
-    }
-    HandOutHere();
-  } catch (...) {
-    mailbox_.GiveUp();
-    std::lock_guard lock(mutex_);
-    DropJobs();
-  }
-}
-
 // Jobs and chain keep each other alive. This breaks the cycle.
-void DanceChain::DropJobs() {
+void DanceChain::Drop() {
   if (jobs_.empty()) return;
-  for (const std::shared_ptr<Job>& job : jobs_) job->Retire();
+  for (const std::shared_ptr<Transition>& job : jobs_) job->Retire();
   jobs_.clear();
   queue_.CheckCancelled();
 }
 
-bool DanceChain::HandOut() {
-  return pacer_.Run(
-      mutex_, kFramesASlice, [this] { return TakeNext(); },
-      [this](std::function<void()> report) {
-        if (report) std::exchange(report, {})();  // and frees its captures
-        mailbox_.Deliver();                       // the sink may pause the dance
-      });
-}
-
-void DanceChain::HandOutHere() {
-  if (!HandOut()) return;
-  double due = 0;
-  {
-    std::lock_guard lock(mutex_);
-    due = start_time_ + Seconds(next_frame_ - first_frame_);
-  }
-  hand_over_.ToWorker(shared_from_this(), due,
-                      [this](std::shared_ptr<SampleJob> job) { queue_.Submit(std::move(job)); });
-}
-
-void DanceChain::OnFailure(const Error& failure) noexcept {
-  React([&] {
-    // After kUnavailable from a closing queue, frames already sampled are still handed out. Other
-    // errors come from the sink.
-    if (failure.code() != ErrorCode::kUnavailable) mailbox_.PostError(failure);
-  });
-}
-
 std::function<void()> DanceChain::TakeNext() {
-  if (over()) {
-    DropJobs();
-    return {};
-  }
-  if (paused_) return {};
   if (jobs_.empty()) {
     if (!score_.timeline().complete() || !score_.EndsBy(next_frame_)) return {};
     return [this, end = next_frame_, controls = score_.controls()] {
@@ -245,7 +161,7 @@ std::function<void()> DanceChain::TakeNext() {
   const int64_t ready = Ready();
   score_.TurnWithMusic(jobs_.size(), ready);
   if (score_.Overtakes(next_frame_)) return FinishTransition();
-  const std::shared_ptr<Job>& job = jobs_.front();
+  const std::shared_ptr<Transition>& job = jobs_.front();
   if (job->failure()) return [this, failure = *job->failure()] { mailbox_.PostError(failure); };
   if (!job->sampled() || !score_.timeline().IsCertain(next_frame_)) return {};
   if (audio_ && ready <= next_frame_) return {};
@@ -256,7 +172,7 @@ std::function<void()> DanceChain::TakeNext() {
 }
 
 std::function<void()> DanceChain::FinishTransition() {
-  std::shared_ptr<Job> job = std::move(jobs_.front());
+  std::shared_ptr<Transition> job = std::move(jobs_.front());
   jobs_.pop_front();
   if (!job->sampled()) {  // a sampled job may be handing out frames right now
     job->Retire();
@@ -265,31 +181,25 @@ std::function<void()> DanceChain::FinishTransition() {
   score_.Finish();
   if (next_frame_ > job->segment().from) danced_ = job->StateBefore(next_frame_);
   // No frame follows the end, so the remaining transitions are not needed.
-  if (score_.EndsBy(next_frame_)) DropJobs();
-  SubmitNext();
+  if (score_.EndsBy(next_frame_)) Drop();
+  Proceed();
   return [this, job = std::move(job), frame = next_frame_, danced = danced_] {
     if (frame > job->segment().from) report_.End(frame, danced);
   };
 }
 
-void DanceChain::Report(const Job& job, int64_t frame, const std::optional<Key>& key) {
+void DanceChain::Report(const Transition& job, int64_t frame, const std::optional<Key>& key) {
   const int64_t from = job.segment().from;
   if (frame == from) {
     report_.Begin(job.segment(), job.warnings(), job.beats());
     // A resumed dance may begin a frame later.
     if (audio_) audio_->Forget(from - model_.history_frames);
   }
-  OutputFrames output = output_.Push(job.FrameAt(frame));
-  if (!output.poses.empty()) {
-    mailbox_.Post([output = std::move(output)](DanceSink& sink) {
-      sink.OnFrames(output.first_frame, output.poses, output.contacts);
-    });
-  }
   report_.Add(frame, job.FrameAt(frame));
   if (key) report_.Reach(*key, *job.run().arrival());
 }
 
-void DanceChain::SubmitNext() {
+void DanceChain::Proceed() {
   if (over() || cancelled_ || jobs_.size() > kMaxAhead) return;
   if (!jobs_.empty() && !jobs_.back()->sampled()) return;  // the next start is not known yet
   std::optional<DanceScore::Next> next = score_.TakeNext(jobs_.size(), Ready());
@@ -299,7 +209,8 @@ void DanceChain::SubmitNext() {
   // A dance that waited for its client's messages is due from now on. With its old start time it
   // would overtake dances that did not wait.
   start_time_ = std::max(start_time_, PlaybackClock() - Seconds(from - first_frame_));
-  auto job = std::make_shared<Job>(shared_from_this(), *std::move(next));
+  auto job = std::make_shared<Transition>(std::static_pointer_cast<DanceChain>(shared_from_this()),
+                                          *std::move(next));
   try {
     queue_.Submit(job);
   } catch (const Error& error) {

@@ -4,53 +4,54 @@
 
 namespace choreo {
 
-Continuation ContinuationAt(int64_t frame, const DancedState& danced, const ModelInfo& model,
-                            const DanceStart& config, bool hears_beats) {
-  Continuation continuation{frame, danced.history, model.fingerprint};
-  if (config.audio)
-    continuation.audio_from_sample = ResumeSample(config, frame, model, hears_beats);
-  continuation.stage = danced.stage;
-  return continuation;
+namespace {
+
+std::optional<Pose> PoseBefore(const DanceStart& start) {
+  if (start.Before().empty()) return std::nullopt;
+  return RoundToFloat(start.Before().back());
 }
+
+}  // namespace
 
 DanceReport::DanceReport(const ModelInfo& model, const ValidDance& config, const AudioFeed* audio,
                          Mailbox<DanceSink>& mailbox)
-    : model_(model),
-      config_(*config),
+    : config_(*config),
       mailbox_(mailbox),
       beats_(model.fps, audio,
              config->continuation ? config->continuation->last_beat : std::nullopt),
-      meter_(model.skeleton, model.fps, config->FirstFrame(),
-             config->continuation ? config->continuation->reached : std::vector<KeyReached>()),
-      watch_(model.skeleton, model.fps,
-             config->Before().empty() ? std::nullopt : std::optional(config->Before().back())) {}
+      meter_(model, config_, PoseBefore(config_),
+             config->continuation ? config->continuation->reached : std::vector<KeyReached>()) {}
 
 void DanceReport::Begin(const Segment& segment, const std::vector<Warning>& warnings,
                         const std::vector<Beat>& beats) {
   for (const Warning& warning : warnings) Post(warning);
   beats_.Start(beats, segment.from);
-  watch_.Begin(segment.key ? segment.key->id : "", segment.to - segment.from);
+  meter_.Begin(segment);
 }
 
 void DanceReport::Add(int64_t number, const DanceFrame& frame) {
-  meter_.Add(frame);
-  watch_.Add(number, frame.pose);
+  OutputFrames output = meter_.Add(number, frame);
+  if (!output.poses.empty()) {
+    mailbox_.Post([output = std::move(output)](DanceSink& sink) {
+      sink.OnFrames(output.first_frame, output.poses, output.contacts);
+    });
+  }
   for (const Beat& beat : beats_.TakeAt(number)) Post(beat);
 }
 
 void DanceReport::Reach(const Key& key, KeyReached reached) {
   reached.id = key.id;
-  meter_.AddKey(reached);
+  meter_.Reach(reached);
   reached.hands = key.hands;
   Post(reached);
 }
 
 void DanceReport::End(int64_t frame, const DancedState& danced) {
-  for (const Warning& warning : watch_.Take()) Post(warning);
+  for (const Warning& warning : meter_.TakeWarnings()) Post(warning);
   Continuation continuation =
-      ContinuationAt(frame, danced, model_, config_, config_.music_beats.empty());
+      meter_.ContinuationAt(frame, danced, /*hears_beats=*/config_.music_beats.empty());
   continuation.last_beat = beats_.last();
-  continuation.reached = meter_.keys();
+  continuation.reached = meter_.reached();
   mailbox_.Post([continuation = std::move(continuation)](DanceSink& sink) {
     sink.OnContinuation(continuation);
   });

@@ -7,12 +7,11 @@
 
 #include "model/dance/audio_feed.h"
 #include "model/dance/beat_report.h"
-#include "model/dance/body_watch.h"
 #include "model/dance/controls/control_track.h"
+#include "model/dance/dance_meter.h"
 #include "model/dance/dance_sink.h"
 #include "model/dance/dance_start.h"
 #include "model/dance/mailbox.h"
-#include "model/dance/quality_meter.h"
 #include "model/dance/timeline.h"
 
 namespace choreo {
@@ -22,13 +21,8 @@ inline void PostEvent(Mailbox<DanceSink>& mailbox, const DanceEvent& event) {
   mailbox.Post([event](DanceSink& sink) { sink.OnEvent(event); });
 }
 
-/// The continuation of a dance at `frame`, without the fields that only streams know: the last beat
-/// and the reached keys. `hears_beats`: whether the dance detects beats in the music.
-Continuation ContinuationAt(int64_t frame, const DancedState& danced, const ModelInfo& model,
-                            const DanceStart& config, bool hears_beats);
-
-/// Reports to a dance's sink what goes with its frames: beats, keys, continuations and the summary.
-/// Not thread-safe.
+/// Reports to a dance's sink its frames, and what goes with them: beats, keys, continuations and
+/// the summary. Not thread-safe.
 class DanceReport {
  public:
   /// `audio`: null without music. Model, audio and mailbox must outlive this object.
@@ -38,7 +32,7 @@ class DanceReport {
   /// Starts a transition.
   void Begin(const Segment& segment, const std::vector<Warning>& warnings,
              const std::vector<Beat>& beats);
-  /// Adds the next frame, with number `number`. The sink has already received it.
+  /// Adds the next frame, with number `number`.
   void Add(int64_t number, const DanceFrame& frame);
   /// Records that the last added frame reaches this key.
   void Reach(const Key& key, KeyReached reached);
@@ -50,12 +44,10 @@ class DanceReport {
  private:
   void Post(const DanceEvent& event) { PostEvent(mailbox_, event); }
 
-  const ModelInfo& model_;
   const DanceConfig config_;
   Mailbox<DanceSink>& mailbox_;
   BeatReport beats_;
-  QualityMeter meter_;
-  BodyWatch watch_;
+  DanceMeter meter_;
 };
 
 }  // namespace choreo

@@ -10,6 +10,7 @@
 #include <mutex>
 #include <thread>
 
+#include "model/dance/pacer.h"
 #include "tests/dance/dances.h"
 #include "tests/engine/sample_job.h"
 #include "tests/support/expect_error.h"
@@ -279,9 +280,9 @@ TEST(TransitionGroup, WorkersHandOutWhatAPauseHeldBack) {
   GroupRequest request = RandomRequest(6);
   request.candidates = 3;
   const auto sink = std::make_shared<GroupRecorder>();
-  std::atomic<bool> handed_out_here = false;
+  std::atomic<int> handed_out_here = 0;
   sink->on_frames = [&, here = std::this_thread::get_id()] {
-    if (std::this_thread::get_id() == here) handed_out_here = true;
+    if (std::this_thread::get_id() == here) ++handed_out_here;
   };
   std::promise<void> paused;
   const auto gate = std::make_shared<LoggedJob>("gate", 1, 0, nullptr);
@@ -296,7 +297,7 @@ TEST(TransitionGroup, WorkersHandOutWhatAPauseHeldBack) {
   ASSERT_TRUE(sink->ranked);
   for (const std::vector<Pose>& frames : sink->frames)
     EXPECT_EQ(std::ssize(frames), request.frames);
-  EXPECT_FALSE(handed_out_here);
+  EXPECT_LE(handed_out_here, kFramesASlice);
   EXPECT_TRUE(queue->WaitUntilIdle(std::chrono::seconds(30)));
   EXPECT_EQ(queue->stats().transitions, 4U) << "the gate's too, but none for handing out";
 }
