@@ -99,14 +99,7 @@ ValidDance ToDanceConfig(const v1::DanceConfig& message, const ModelInfo& model,
     CheckMusic(message.audio_format());
     config.audio = SamplesOf(message.audio_format());
   }
-  ValidDance valid(std::move(config), model);
-  // A stream is long-lived, and needs only the last poses of a long history.
-  valid.Change([&](DanceConfig& checked) {
-    std::vector<Pose>& poses = checked.history;
-    const auto kept = std::min(std::ssize(poses), std::ptrdiff_t{model.history_frames});
-    poses.erase(poses.begin(), poses.end() - kept);
-  });
-  return valid;
+  return {std::move(config), model};
 }
 
 ValidGroup ToGroupRequest(const v1::GenerateTransitionRequest& message, const ModelInfo& model,

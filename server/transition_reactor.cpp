@@ -107,13 +107,7 @@ class TransitionSession final : public CallSession<v1::GenerateTransitionRespons
     if (!file.notes.empty())
       music_damaged_ = MusicDamaged(file.notes, file.seconds(), queue_->model().fps);
     MusicAnalysis music = file.Analyse((*request)->music_beats);
-    request->Change([&](GroupRequest& known) {
-      known.samples = std::move(file.mono);
-      known.music_beats = std::move(music.beats);
-      if (known.music_id == 0) known.music_id = music.id;
-      if (known.music_passages.empty()) known.music_passages = std::move(music.passages);
-      if (known.music_energies.empty()) known.music_energies = std::move(music.energies);
-    });
+    request->SetMusic(std::move(file.mono), std::move(music));
   }
 
   void Begin(const v1::GenerateTransitionRequest& message, ValidGroup request) {

@@ -9,10 +9,6 @@ namespace choreo {
 template <class Request>
 class Valid {
  public:
-  /// Applies a change that keeps the request valid, such as moving its poses to another frame of
-  /// reference.
-  void Change(const auto& change) { change(request_); }
-
   const Request& operator*() const& { return request_; }
   Request&& operator*() && { return std::move(request_); }
   const Request* operator->() const { return &request_; }
@@ -20,8 +16,7 @@ class Valid {
  protected:
   explicit Valid(Request request) : request_(std::move(request)) {}
 
- private:
-  Request request_;
+  Request request_;  // derived types change only what keeps it valid
 };
 
 }  // namespace choreo

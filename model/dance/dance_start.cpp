@@ -101,6 +101,10 @@ ValidDance::ValidDance(DanceConfig request, const ModelInfo& model) : Valid(std:
                       ", the first that the continuation needs");
     }
   }
+  // A stream is long-lived, and needs only the last poses of a long history.
+  std::vector<Pose>& poses = request_.history;
+  const auto kept = std::min(std::ssize(poses), std::ptrdiff_t{model.history_frames});
+  poses.erase(poses.begin(), poses.end() - kept);
 }
 
 ValidGroup::ValidGroup(GroupRequest group, const ModelInfo& model) : Valid(std::move(group)) {
@@ -131,6 +135,14 @@ ValidGroup::ValidGroup(GroupRequest group, const ModelInfo& model) : Valid(std::
   }
   ValidateAudioStart(model, *request.audio, request.FirstFrame());
   CheckSamples(request.samples, request.audio->channels, request.audio->first_sample);
+}
+
+void ValidGroup::SetMusic(std::vector<float> mono, MusicAnalysis music) {
+  request_.samples = std::move(mono);
+  if (request_.music_beats.empty()) request_.music_beats = std::move(music.beats);
+  if (request_.music_id == 0) request_.music_id = music.id;
+  if (request_.music_passages.empty()) request_.music_passages = std::move(music.passages);
+  if (request_.music_energies.empty()) request_.music_energies = std::move(music.energies);
 }
 
 int64_t LatestFirstSample(int64_t first_frame, double sample_rate, const ModelInfo& model) {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "model/audio/music_analysis.h"
 #include "model/core/grid.h"
 #include "model/core/limits.h"
 #include "model/core/valid.h"
@@ -81,7 +82,7 @@ class ValidDance : public Valid<DanceConfig> {
   /// Throws Error(kInvalidArgument) for invalid values, Error(kFailedPrecondition) for a
   /// continuation of another fingerprint, Error(kOutOfRange) for audio that begins too late, and
   /// Error(kUnimplemented) for music that the model cannot use. Fields are named as in the API:
-  /// "config.history.poses[0]".
+  /// "config.history.poses[0]". Keeps only the poses of the history that the model uses.
   ValidDance(DanceConfig request, const ModelInfo& model);
 };
 
@@ -90,6 +91,10 @@ class ValidGroup : public Valid<GroupRequest> {
  public:
   /// Throws what ValidDance throws, also for fields of the request: "target.rotations[3]".
   ValidGroup(GroupRequest group, const ModelInfo& model);
+
+  /// Adds the music of a decoded file: mono samples, and what is known of them, unless the request
+  /// says it.
+  void SetMusic(std::vector<float> mono, MusicAnalysis music);
 };
 
 /// The last sample frame at which the audio of a dance or transition from `first_frame` may begin

@@ -95,11 +95,11 @@ TransitionRun::TransitionRun(const ModelInfo& model, const TransitionSpec& world
   ground_ = GroundFrame::Of(world_);
   stage_ = spec_->stage.value_or(GroundFrame{world_.root_position, ToFloat(ground_.heading)});
   held_ = spec_->arrival_frames > 0 && IsHold(*spec_, model.fps);
-  spec_.Change([this](TransitionSpec& spec) { MoveToCanonicalFrame(spec); });
+  spec_ = {InCanonicalFrame(*spec_), model};
   arrival_ = ArrivalOf(*spec_, held_ ? Arrival::Lead::kAlone : Arrival::Lead::kWithModel);
 }
 
-void TransitionRun::MoveToCanonicalFrame(TransitionSpec& spec) {
+TransitionSpec TransitionRun::InCanonicalFrame(TransitionSpec spec) const {
   spec.history = CanonicalHistory(ground_, before_);
   spec.stage = ground_.ToLocal(stage_);
   const auto to_local = [&](Target& target) {
@@ -118,6 +118,7 @@ void TransitionRun::MoveToCanonicalFrame(TransitionSpec& spec) {
     spec.after = ground_.ToLocal(*spec.after);
   else if (spec.target && (spec.hit || held_))
     spec.after = spec.target->pose;  // at rest
+  return spec;
 }
 
 // Whether another sample may be slower, because the direct way to the key is slow enough.

@@ -64,9 +64,7 @@ class TransitionRun {
 
   /// The spec in its canonical frame.
   const TransitionSpec& spec() const { return *spec_; }
-  void set_candidate(uint32_t candidate) {
-    spec_.Change([candidate](TransitionSpec& spec) { spec.candidate = candidate; });
-  }
+  void set_candidate(uint32_t candidate) { spec_.set_candidate(candidate); }
 
   /// Generates all frames. If a joint moves faster than human bodies can and no key requires it,
   /// samples again up to four times and keeps the slowest result. The sampler and this object must
@@ -88,7 +86,7 @@ class TransitionRun {
   }
 
  private:
-  void MoveToCanonicalFrame(TransitionSpec& spec);
+  TransitionSpec InCanonicalFrame(TransitionSpec spec) const;
   bool MayBeRetaken() const;
   double Strain() const;
   Slices<> DanceOnce(Sampler& sampler);

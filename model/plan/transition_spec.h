@@ -123,6 +123,8 @@ class ValidSpec : public Valid<TransitionSpec> {
   /// Throws Error(kInvalidArgument), naming the field, unless frames, history, joints, mask, music
   /// rows and controls have the model's shape, and for a control that the model lacks.
   ValidSpec(TransitionSpec spec, const ModelInfo& model);
+
+  void set_candidate(uint32_t candidate) { request_.candidate = candidate; }
 };
 
 /// Whether the spec's target fixes the root's position or a joint.
