@@ -175,6 +175,7 @@ test('a page hears of jumps that stand, of the end at once, and of what is too l
         refused = dance.setKey({ id: 'end', time: 6, pose: 'dab' }).then(assert.fail, ({ message }) => message);
         await dance.setKey({ id: 'jump', time: 5, pose: 'star_jump' });
         await dance.setKey({ id: 'placed', time: 5.5, pose: 'star_jump', place: [0, 0] });
+        await dance.setKey({ id: 'there', time: 4, pose: 'star_jump', place: 'here' });
         await dance.setKey({ id: 'late', time: 0.5, pose: 'dab' });
       });
       assert.equal(await refused, 'time: 6 s is not before the end of the dance, 6 s');
@@ -182,6 +183,7 @@ test('a page hears of jumps that stand, of the end at once, and of what is too l
       assert.equal(warning[1].id, 'jump');
       assert.match(warning[1].message, /^star_jump is in the air, but without a place it stands on the floor/);
       assert.ok(more.every(([, { message }]) => !message.includes('without a place')), JSON.stringify(more));
+      assert.ok(heard.some(([event, { id, time }]) => event === 'key' && id === 'there' && time === 4), 'a jump where she is');
       const [, late] = heard.find(([event, { id }]) => event === 'key' && id === 'late');
       assert.match(late.refused, /^too late: all before \d(\.\d+)? s is settled$/);
     },

@@ -125,6 +125,7 @@ class KeysTest(unittest.TestCase):
             ({"time": 1}, ".rotations", "is missing, and so is pose"),
             ({"time": 1, "rotations": [[0, 0, 0]]}, ".rotations", "[[0, 0, 0]] is not one vector for each of 24 joints"),
             ({"time": 1, "pose": "stand", "place": [1]}, ".place", "[1] is not a list of 2 numbers"),
+            ({"time": 1, "pose": "stand", "place": "here"}, ".place", "'here' is not a list of 2 numbers, [x, z] in metres; leave it out, and the pose is taken wherever"),
             ({"time": 1, "joints": {"left_knee": [1, 2, 3]}}, ".joints.left_knee", "[1, 2, 3] is not a number"),
             ({"time": 1, "joints": {"tail": [1, 2, 3]}}, ".joints.tail", "'tail' is no joint of smpl24"),
             ({"time": 1, "pose": "stand", "joints": ["tail"]}, ".joints", "'tail' is no joint of smpl24"),

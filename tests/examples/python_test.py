@@ -191,7 +191,7 @@ class PythonTest(unittest.TestCase):
         self.assertEqual((placed.x, placed.z), (3, 2))
         self.assertAlmostEqual(placed.y, skeleton.pelvis_height, 6)
         for place in ([1], 50, "ab", {"x": 1, "z": 2}, [float("nan"), 0]):
-            with self.assertRaisesRegex(ChoreoError, r"^place: .* is not \[x, z\], two finite numbers$"):
+            with self.assertRaisesRegex(ChoreoError, r"^place: .* is not \[x, z\], two finite numbers in metres; leave it out, and the pose is taken wherever the dancer is$"):
                 pose(skeleton, {}, place=place)
 
     def test_warnings_name_their_key(self):

@@ -8,9 +8,12 @@ export interface DanceHeader {
   skeleton: Smpl;
 }
 
-/** A library pose by name, or rotation vectors of some joints, [x, y, z] in radians. */
+/**
+ * A library pose by name, or rotation vectors of some joints, [x, y, z] in radians. Without a `place` it is taken wherever the dancer is, a jump
+ * standing; 'here' is where she is when the key arrives.
+ */
 export type KeyPose =
-  | { pose: string; place?: [number, number]; facing?: number; hold?: number; hit?: number }
+  | { pose: string; place?: [number, number] | 'here'; facing?: number; hold?: number; hit?: number }
   | { rotations: Record<string, [number, number, number]> };
 
 /** A key was reached at `time`, or is not danced for the reason `refused`. */

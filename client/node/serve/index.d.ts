@@ -43,7 +43,7 @@ export interface DanceHandler {
    * - `GET /dance`: a new dance, as events; with the header Last-Event-ID the rest of that one, or 204 where it is gone.
    *   `dance` {id, frame_rate, skeleton}; `frames` {first, places: 3 numbers a frame, turns: 4 a joint}; `key` {id, time} or {id, refused};
    *   `warning` {id, message}; `moved` {frame}: another server goes on; last `over` {frames} or `failed` {code, message, retry_after}.
-   * - `POST /dance/ID/keys`: a key, as in a key file (docs/poses.md), {id, time, pose: 'kick'}; or {id, time, rotations: {head: [0, 0.4, 0]}}, which
+   * - `POST /dance/ID/keys`: a key, as in a key file (docs/poses.md), {id, time, pose: 'kick'}, whose place may be 'here'; or {id, time, rotations: {head: [0, 0.4, 0]}}, which
    *   sets these joints alone. 202; a key that comes too late, or near another one, is refused by an event. The same id again moves a key.
    * - `DELETE /dance/ID/keys/KEY`: takes it back.
    * - `GET /dance/skeleton`: the body that dances.

@@ -82,7 +82,7 @@ class DanceServer {
     const body = await bodyOf(request);
     const dance = this.#find(id);
     const warnings = []; // sent once the key is accepted
-    this.#say(id, response, editsOf(body, dance.model.skeleton, (...warning) => warnings.push(warning)));
+    this.#say(id, response, editsOf(body, dance.model.skeleton, dance.here, (...warning) => warnings.push(warning)));
     for (const warning of warnings) dance.warn(...warning);
   }
 

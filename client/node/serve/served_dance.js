@@ -16,6 +16,8 @@ export class ServedDance {
   model;
   over = false;
   watchers = 0;
+  /** Where the dancer stands in the newest frame, [x, z]. */
+  here = [0, 0];
   /** The timer after which the server forgets it. */
   forget;
   #client;
@@ -133,6 +135,8 @@ export class ServedDance {
     }
     if (frames) {
       this.#frames += frames.count;
+      const [x, , z] = frames.root_positions.slice(-3);
+      this.here = [x, z];
       this.#tell('frames', { first: Number(frames.first_frame), places: short(frames.root_positions), turns: short(frames.rotations) });
     }
     if (event?.keyframe_reached) this.#tell('key', { id: event.keyframe_reached.id, time: event.time });

@@ -19,6 +19,13 @@ export function vector(value, size, field) {
   return value.map((one, at) => number(one, `${field}[${at}]`));
 }
 
+/** Reads a place, [x, z]. */
+export function place(value, field) {
+  const isPlace = Array.isArray(value) && value.length === 2;
+  if (!isPlace) throw invalid(field, `${quoted(value)} is not a list of 2 numbers, [x, z] in metres; leave it out, and the pose is taken wherever the dancer is`);
+  return vector(value, 2, field);
+}
+
 /** Throws for a `where` that has other members than `members`. `form`: its form in the message, such as '{ place: [x, z] }'. */
 export function requireWhere(where, form, members) {
   if (!isObject(where)) throw invalid('where', `${quoted(where)} is not ${form}`);

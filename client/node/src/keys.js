@@ -1,6 +1,6 @@
 // Reads key files as `choreo dance --keyframes` does; docs/poses.md describes them.
 import { invalid } from './error.js';
-import { isObject, number, requireSkeleton, requireWhere, vector } from './fields.js';
+import { isObject, number, place as placeOf, requireSkeleton, requireWhere, vector } from './fields.js';
 import { find } from './poses.js';
 import { radians, times, turned } from './turns.js';
 import { hint, quoted } from './words.js';
@@ -134,7 +134,7 @@ function readPose(value, field, skeleton) {
     const lostJump = `${named.id} is in the air, but without a place it stands on the floor; give it one: "place": [x, z]`;
     return { rotations, ...(named.tags.includes('jump') && { lostJump }) };
   }
-  const [x, z] = vector(value.place, 2, `${field}.place`);
+  const [x, z] = placeOf(value.place, `${field}.place`);
   const root = turned(heading, named.root_position);
   return { rotations, root: [root[0] + x, root[1], root[2] + z] };
 }

@@ -1,5 +1,5 @@
 import { invalid } from './error.js';
-import { requireSkeleton, requireWhere, vector } from './fields.js';
+import { place, requireSkeleton, requireWhere } from './fields.js';
 import { hint, quoted } from './words.js';
 
 /** Makes a pose: the rest pose of `skeleton` with these `rotations`; index.d.ts documents it. */
@@ -14,6 +14,6 @@ export function pose(skeleton, rotations = {}, where = {}) {
   requireWhere(where, '{ place: [x, z] }', ['place']);
   const numbers = names.flatMap((joint) => Array.from(rotations[joint] ?? [0, 0, 0]));
   if (where.place === undefined) return { rotations: numbers };
-  const [x, z] = vector(where.place, 2, 'where.place');
+  const [x, z] = place(where.place, 'where.place');
   return { root_position: { x, y: skeleton.pelvis_height, z }, rotations: numbers };
 }

@@ -11,7 +11,7 @@ import warnings
 
 from . import choreography
 from ._errors import invalid
-from ._pose import require_skeleton
+from ._pose import WITHOUT_PLACE, require_skeleton
 from ._poses import find
 from ._words import hint, quoted
 
@@ -67,7 +67,7 @@ def library_pose(
     wherever the dancer is. `skeleton`: the model's, which must be smpl24. Raises ChoreoError. Warns about a jump without a place, which is danced
     standing on the floor."""
     require_skeleton(skeleton)
-    given = {"pose": name, "facing": facing} | ({} if place is None else {"place": list(place)})
+    given = {"pose": name, "facing": facing} | ({} if place is None else {"place": place if isinstance(place, str) else list(place)})
     rotations, root, lost_jump = _pose(given, "library_pose", skeleton)
     if lost_jump:
         warnings.warn(f"library_pose: {lost_jump}", stacklevel=2)
@@ -161,7 +161,10 @@ def _pose(value, field, skeleton):
     if "place" not in value:
         lost_jump = f'{named.id} is in the air, but without a place it stands on the floor; give it one: "place": [x, z]'
         return rotations, None, lost_jump if "jump" in named.tags else None
-    x, z = _vector(value["place"], 2, f"{field}.place")
+    place = value["place"]
+    if not isinstance(place, list) or len(place) != 2:
+        raise invalid(f"{field}.place", f"{quoted(place)} is not a list of 2 numbers, [x, z] in metres; {WITHOUT_PLACE}")
+    x, z = _vector(place, 2, f"{field}.place")
     turned = _turned(_quaternion(heading), named.root_position)
     return rotations, [turned[0] + x, turned[1], turned[2] + z], None
 

@@ -9,6 +9,9 @@ from ._errors import invalid
 from ._words import hint, quoted
 
 
+WITHOUT_PLACE = "leave it out, and the pose is taken wherever the dancer is"
+
+
 def pose(
     skeleton: choreography.Skeleton,
     rotations: typing.Optional[typing.Mapping[str, typing.Sequence[float]]] = None,
@@ -24,7 +27,7 @@ def pose(
         if not _is_vector(turn, 3):
             raise invalid(f"rotations.{joint}", f"{quoted(turn)} is not [x, y, z], three finite numbers")
     if place is not None and not _is_vector(place, 2):
-        raise invalid("place", f"{quoted(place)} is not [x, z], two finite numbers")
+        raise invalid("place", f"{quoted(place)} is not [x, z], two finite numbers in metres; {WITHOUT_PLACE}")
     root = None if place is None else choreography.Vector3(x=place[0], y=skeleton.pelvis_height, z=place[1])
     return choreography.Pose(root_position=root, rotations=[number for joint in names for number in rotations.get(joint, (0, 0, 0))])
 
