@@ -25,7 +25,7 @@ scene() {
   for name in "${@:3}"; do inputs+=(-i "$scratch/$name.mp4"); done
   printf '%s' "$2" > "$caption"
   local beside="[0:v]null[row]"
-  ((count == 1)) || beside="hstack=inputs=$count[row]"
+  ((count == 1)) || beside="hstack=inputs=${count}[row]"
   local text="drawtext=textfile=$caption:font='DejaVu Sans':fontsize=20:fontcolor=0x24292f:x=(w-text_w)/2:y=14"
   ffmpeg -v error -y "${inputs[@]}" -filter_complex "$beside;[row]scale=640:360,$text,format=yuv420p" -c:v libx264 -preset veryfast -crf 16 "$scratch/scene$1.mp4"
   echo "file 'scene$1.mp4'" >> "$scratch/scenes.txt"

@@ -9,17 +9,20 @@ root=$(cd "$(dirname "$0")/.." && pwd)
 bin=$(realpath "$1")/bin
 seconds=$2
 shift 2
-[[ $# -gt 0 ]] || set -- $(cd "$bin" && echo fuzz_* | sed 's/fuzz_//g')
+if (($# == 0)); then
+  targets=("$bin"/fuzz_*)
+  set -- "${targets[@]##*/fuzz_}"
+fi
 
 fuzz() {
-  local target=$1 leaks=1 lengths=-max_len=8192
+  local target=$1 leaks=1 lengths=(-max_len=8192)
   # The server's threads free a call's memory slightly later; libsndfile leaks 6 KB for some damaged Oggs.
   [[ ! $target =~ ^(stream_dance|generate_transition|audio)$ ]] || leaks=0
   # Calls are slow: libFuzzer would reach only a few messages. 256 bytes are a hundred.
-  [[ ! $target =~ ^(stream_dance|generate_transition)$ ]] || lengths="-max_len=256 -len_control=0"
+  [[ ! $target =~ ^(stream_dance|generate_transition)$ ]] || lengths=(-max_len=256 -len_control=0)
   local out=$root/out/fuzz/$target found=none
   mkdir -p "$out/corpus"
-  (cd "$out" && ASAN_OPTIONS=detect_leaks=$leaks "$bin/fuzz_$target" -max_total_time="$seconds" -timeout=60 -rss_limit_mb=2048 -malloc_limit_mb=1024 $lengths \
+  (cd "$out" && ASAN_OPTIONS=detect_leaks=$leaks "$bin/fuzz_$target" -max_total_time="$seconds" -timeout=60 -rss_limit_mb=2048 -malloc_limit_mb=1024 "${lengths[@]}" \
     -detect_leaks=$leaks -print_final_stats=1 corpus "$root/tests/fuzz/corpus/$target") >"$out/log" 2>&1 || found="see $out/log"
   local executions edges
   executions=$(sed -n 's/^stat::number_of_executed_units: *//p' "$out/log")

@@ -26,7 +26,7 @@ demo=(fretsonfire-songs-sectoid)
 # For `choreo render --video`.
 video=(ffmpeg)
 # An independent reader of our files, and the needs of the examples in other languages and web pages (which are tests, too).
-test=(python3-numpy python3-grpcio python3-protobuf python3-pip python3-setuptools python3-wheel nodejs npm openssl)
+test=(python3-numpy python3-grpcio python3-protobuf python3-pip python3-setuptools python3-wheel nodejs npm openssl shellcheck)
 # For the comparisons of `make bench`.
 bench=(python3-torch python3-numpy)
 lint=(clang-format clang-tidy)

@@ -10,7 +10,8 @@ trap 'rm -f "$report"' EXIT
 # thread: ctest already uses every core. (nproc comes first because it obeys OMP_NUM_THREADS.)
 jobs=$((2 * ($(env -u OMP_NUM_THREADS nproc) + 1)))
 export OMP_NUM_THREADS=${OMP_NUM_THREADS:-1} OPENBLAS_NUM_THREADS=${OPENBLAS_NUM_THREADS:-1}
-export TSAN_OPTIONS="suppressions=$(cd "$(dirname "$0")/.." && pwd)/tests/tsan.supp ${TSAN_OPTIONS:-}"
+root=$(cd "$(dirname "$0")/.." && pwd)
+export TSAN_OPTIONS="suppressions=$root/tests/tsan.supp ${TSAN_OPTIONS:-}"
 # Processes of this build's programs, one per line.
 running() { find /proc -maxdepth 2 -name exe -lname "$(realpath "$build")/*" 2>/dev/null | cut -d/ -f3 | sort || true; }
 before=$(running)

@@ -1,3 +1,4 @@
+# shellcheck shell=bash disable=SC2034  # whoever sources it uses bin
 # Sourced by tests that use Blender, with the build directory as $1: sets bin and scratch, a folder that goes with the test. Ends the test with
 # 77 where there is no Blender.
 bin=$(realpath "$1")/bin
