@@ -165,6 +165,24 @@ test('a dance waits for a page that takes nothing', () =>
     { behind: 2 },
   ));
 
+test('a page reads the answers to its keys, else its browser would show them as cancelled', () =>
+  withBackEnd(
+    () => silent,
+    async ({ url }) => {
+      const answers = [];
+      const heard = async (...asked) => {
+        const answer = await fetch(...asked);
+        answers.push(answer);
+        return answer;
+      };
+      const dance = connectDance(url, { fetch: heard });
+      await dance.setKey({ id: 'dab', time: 4, pose: 'dab' });
+      await dance.removeKey('dab');
+      assert.deepEqual(answers.slice(-2).map(({ status, bodyUsed }) => [status, bodyUsed]), Array(2).fill([202, true]));
+      dance.close();
+    },
+  ));
+
 test('a page hears of jumps that stand, of the end at once, and of what is too late in seconds', () =>
   withBackEnd(
     () => silent,

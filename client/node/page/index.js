@@ -90,6 +90,7 @@ class PageDance {
     const [place] = this.#url.split(/[?#]/);
     const answer = await fetch(`${place}/${id}${path}`, { method, body, headers: { ...headers, 'Content-Type': 'application/json' } });
     if (!answer.ok) throw await Refused.by(answer);
+    await answer.text(); // empty; browsers show a request whose answer nobody reads as cancelled
   }
 
   async #listen(begin, fail) {
