@@ -20,7 +20,8 @@ namespace choreo {
 /// The progress of a call.
 struct CallProgress {
   bool unread = false;  ///< an answer waits for its client to take it
-  /// The time of that answer or, without one, of the last message in either direction.
+  /// The time of that answer or, without one, of the last message in either direction; now while
+  /// the workers sample.
   std::chrono::steady_clock::time_point since;
 };
 

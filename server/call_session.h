@@ -49,7 +49,14 @@ class CallSession : public Call {
   }
 
   void Reset() override { outbox_.Reset(); }
-  CallProgress progress() const override { return outbox_.progress(); }
+
+  // A client may be silent while the workers sample: slow models take minutes for long transitions.
+  CallProgress progress() const override {
+    CallProgress progress = outbox_.progress();
+    const std::shared_ptr<Dance> current = dance();
+    if (!progress.unread && current && current->IsSampling()) progress.since = Clock::now();
+    return progress;
+  }
 
   // Waiting answers, including the last continuation, are still sent.
   void EndIfRevoked() override {

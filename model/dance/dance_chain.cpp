@@ -34,7 +34,10 @@ class DanceChain::Transition : public Job {
   /// Cancels a transition that the chain no longer needs; the queue drops it.
   void Retire() { retired_ = true; }
   /// The failure is reported once all frames before the transition are handed out.
-  void Fail(const Error& failure) { failure_ = failure; }
+  void Fail(const Error& failure) {
+    Stop();
+    failure_ = failure;
+  }
 
   bool sampled() const { return sampled_; }
   const std::optional<Error>& failure() const { return failure_; }

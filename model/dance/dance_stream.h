@@ -99,6 +99,9 @@ class DanceStream {
   /// changes the dance.
   void SetPaused(bool paused) { chain_->SetPaused(paused); }
 
+  /// Whether a transition is queued or being sampled.
+  bool IsSampling() const { return chain_->IsSampling(); }
+
   /// Cancels the dance. The sink gets OnError(kCancelled) unless it has had its last call.
   /// Idempotent.
   void Cancel() noexcept { chain_->Cancel(); }

@@ -34,6 +34,9 @@ class Delivery : public std::enable_shared_from_this<Delivery<Sink>> {
     React([this] { mailbox_.PostError(Error(ErrorCode::kCancelled, "", "cancelled")); });
   }
 
+  /// Whether a transition is queued or being sampled: the workers act next, not the client.
+  bool IsSampling() const { return sampling_ > 0; }
+
   /// Hands out a few results. Returns true if there may be more.
   bool HandOut() {
     return pacer_.Run(
@@ -64,7 +67,10 @@ class Delivery : public std::enable_shared_from_this<Delivery<Sink>> {
   class Job : public SampleJob {
    public:
     Job(std::shared_ptr<Delivery> owner, int frames, double deadline)
-        : owner_(std::move(owner)), frames_(frames), deadline_(deadline) {}
+        : owner_(std::move(owner)), frames_(frames), deadline_(deadline) {
+      ++owner_->sampling_;
+    }
+    ~Job() override { Stop(); }
 
     bool Continue(Sampler& sampler) final {
       if (!slices_) slices_.emplace(Work(sampler));
@@ -77,6 +83,12 @@ class Delivery : public std::enable_shared_from_this<Delivery<Sink>> {
     /// Constant once sampled.
     const TransitionRun& run() const { return *run_; }
 
+   protected:
+    /// Call when this job will sample no more.
+    void Stop() {
+      if (is_sampling_.exchange(false)) --owner_->sampling_;
+    }
+
    private:
     virtual TransitionRun Prepare() = 0;
     /// Called once the transition is sampled.
@@ -86,6 +98,7 @@ class Delivery : public std::enable_shared_from_this<Delivery<Sink>> {
       run_.emplace(Prepare());
       co_await Pause();
       co_await run_->Dance(sampler);
+      Stop();
       co_await Finish();
       do {
         co_await Pause();
@@ -97,6 +110,7 @@ class Delivery : public std::enable_shared_from_this<Delivery<Sink>> {
     const double deadline_;
     std::optional<TransitionRun> run_;  // once prepared
     std::optional<Slices<>> slices_;    // the worker's
+    std::atomic<bool> is_sampling_ = true;
   };
 
   /// `submit`: how to submit the jobs that hand out. The queue must outlive the sink's last call
@@ -167,6 +181,7 @@ class Delivery : public std::enable_shared_from_this<Delivery<Sink>> {
   }
 
   const Submit submit_;
+  std::atomic<int> sampling_ = 0;  // jobs queued or being sampled
   std::atomic<bool> paused_ = false;
   Pacer pacer_;  // paces handing out
   HandOver<Delivery> hand_over_;

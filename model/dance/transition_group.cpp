@@ -214,6 +214,7 @@ TransitionGroup::TransitionGroup(SampleQueue& queue, ValidGroup request,
 TransitionGroup::~TransitionGroup() { impl_->Cancel(); }
 
 void TransitionGroup::SetPaused(bool paused) { impl_->SetPaused(paused); }
+bool TransitionGroup::IsSampling() const { return impl_->IsSampling(); }
 void TransitionGroup::Cancel() noexcept { impl_->Cancel(); }
 
 }  // namespace choreo

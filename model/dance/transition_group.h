@@ -57,6 +57,7 @@ class TransitionGroup {
   TransitionGroup& operator=(const TransitionGroup&) = delete;
 
   void SetPaused(bool paused);
+  bool IsSampling() const;  ///< whether a candidate is queued or being sampled
   void Cancel() noexcept;
 
  private:

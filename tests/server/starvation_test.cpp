@@ -96,6 +96,24 @@ TEST_F(StarvationTest, CallThatSendsNothingEnds) {
   ExpectIdle();
 }
 
+// Its client has nothing to do meanwhile, however slow the model is.
+TEST_F(StarvationTest, CallThatWaitsForTheModelGoesOn) {
+  Start(1, [](ServerConfig& config) { config.idle_seconds = 0.5; });
+  probe->Close();
+  DanceClient waiting(stub());
+  waiting.Send(Config());
+  waiting.SendKeyframe(Key("a", 20));
+  DanceClient silent(stub());  // later, and without anything to sample
+  silent.Send(MusicConfig());
+  while (silent.ReadOne()) {
+  }
+  EXPECT_EQ(silent.Finish().status.error_code(), grpc::StatusCode::DEADLINE_EXCEEDED);
+  probe->Open();
+  const Answer& answer = waiting.Finish();
+  EXPECT_TRUE(answer.status.ok()) << answer.status.error_message();
+  EXPECT_THAT(answer.ReachedKeys(), testing::ElementsAre("a"));
+}
+
 // It finds out why when it reads on, also behind what has come before.
 TEST_F(StarvationTest, CallThatReadsNothingIsReset) {
   Start(1, [](ServerConfig& config) {
