@@ -15,10 +15,10 @@
 
 namespace choreo {
 
-/// Base of what a call dances: its jobs sample transitions, and hand out the results to its sink in
-/// the order of TakeNext, one thread at a time. Reports and calls to the sink are made without the
-/// lock. Thread-safe. Lock order: this lock before those of the queue and the audio feed. The jobs
-/// keep this object alive.
+/// The base of a stream's chain and of a group of candidates. Jobs sample transitions. One thread
+/// at a time hands out their results to the sink, in the order of TakeNext and without the lock.
+/// Thread-safe. Lock order: this lock before those of the queue and the audio feed. The jobs keep
+/// this object alive.
 template <class Sink>
 class Delivery : public std::enable_shared_from_this<Delivery<Sink>> {
  public:
@@ -62,8 +62,8 @@ class Delivery : public std::enable_shared_from_this<Delivery<Sink>> {
  protected:
   using Submit = void (SampleQueue::*)(std::shared_ptr<SampleJob>);
 
-  /// A transition on its way through the queue: prepared, sampled and finished by a worker, which
-  /// then hands out results.
+  /// One transition in the queue. A worker prepares, samples and finishes it, then hands out
+  /// results.
   class Job : public SampleJob {
    public:
     Job(std::shared_ptr<Delivery> owner, int frames, double deadline)
@@ -122,7 +122,7 @@ class Delivery : public std::enable_shared_from_this<Delivery<Sink>> {
   /// Whether the last call to the sink has been made or is being made.
   bool over() const { return mailbox_.over(); }
 
-  /// Changes the state under the lock, and hands out what is due. Throws what `change` throws.
+  /// Runs `change` under the lock, then hands out what is due. Throws what `change` throws.
   void Change(const std::function<void()>& change) {
     {
       std::lock_guard lock(mutex_);
@@ -131,7 +131,7 @@ class Delivery : public std::enable_shared_from_this<Delivery<Sink>> {
     }
     HandOutHere();
   }
-  /// The same, for changes by the dance itself. If memory is exhausted, ends the dance.
+  /// Change without a caller to throw to: if it fails, as without memory, ends the dance.
   void React(const std::function<void()>& change) noexcept {
     try {
       Change(change);
@@ -149,14 +149,14 @@ class Delivery : public std::enable_shared_from_this<Delivery<Sink>> {
   std::mutex mutex_;  // guards what TakeNext uses
 
  private:
-  // The functions below require mutex_. Takes the next result to hand out. Returns a function that
-  // reports it, to be called without the lock, or null if nothing may be handed out.
+  // The next four functions require mutex_. TakeNext returns a function that reports the next
+  // result without the lock, or null if nothing may be handed out.
   virtual std::function<void()> TakeNext() = 0;
-  /// Submits the jobs that a change makes possible.
+  // Submits the jobs that a change makes possible.
   virtual void Proceed() {}
-  /// Frees all results. Called when the sink has had its last call.
+  // Frees all results. Called after the sink's last call.
   virtual void Drop() = 0;
-  /// When the next result is due, by PlaybackClock.
+  // The time at which the next result is due, by PlaybackClock.
   virtual double Due() const = 0;
 
   std::function<void()> Take() {

@@ -20,7 +20,7 @@ struct KeyReached {
   /// the key, so an unsteered dance would miss it by more.
   double raw_error_m = 0;
   double final_error_m = 0;    ///< of the danced frame
-  double final_error_deg = 0;  ///< the same
+  double final_error_deg = 0;  ///< of the danced frame
   double correction_m = 0;     ///< the furthest that any joint was moved on the way to the key
   /// The largest acceleration of any joint within two frames of the key, m/s^2. Only reports have
   /// it.
@@ -33,7 +33,7 @@ struct KeyReached {
 /// it is invalid. Codes have the API's numbers, here and below.
 struct KeyRejected {
   enum class Code {
-    kUnknown,         ///< an old server does not say
+    kUnknown,         ///< from an older server
     kTooLate,         ///< the requested frame is frozen
     kFrozen,          ///< the key of this id is in frozen frames
     kRejectedBefore,  ///< a removal of a key that had been rejected
@@ -52,7 +52,7 @@ struct KeyRejected {
 struct Beat {
   /// Where it comes from.
   enum class Source {
-    kUnknown,    ///< an old server does not say
+    kUnknown,    ///< from an older server
     kGiven,      ///< sent by the client
     kFound,      ///< in the whole music
     kPredicted,  ///< from the music before the transition's first frame
@@ -82,11 +82,11 @@ struct Warning {
     kVelocityNotMet,      ///< at the end, `frame`: some parts missed their requested speed
     kBeatsTooLate,        ///< beats came after their frames were frozen; `frame` is the first's
     kTemperatureTooHigh,  ///< higher than the model was trained for; `frame` is the first
-    kKeyImpossible,       ///< no body can be as the key at `frame` asks
+    kKeyImpossible,       ///< no body can take the pose of the key at `frame`
     kMusicDamaged,        ///< the music's file is damaged or ends early; `frame` is its last
     kMusicSilent,         ///< nothing is heard in the whole music, whose last frame is `frame`
-    kKeyBehindMusic,      ///< the key at `frame` lies behind the music's end
-    kDanceBehindMusic,    ///< more frames are asked for than the music has, which ends at `frame`
+    kKeyBehindMusic,      ///< the key at `frame` is after the music's end
+    kDanceBehindMusic,    ///< the music ends at `frame`, before the last requested frame
     kJointTooFast,        ///< a joint moves faster than people can, fastest at `frame`
     kFlightTooLong,       ///< from `frame` on nothing touches the floor for longer than people jump
   };

@@ -8,8 +8,8 @@
 #include "model/core/limits.h"
 #include "model/core/passage.h"
 
-/// What a request says of a dance and of its music: the same for server, projects, reports and
-/// edits. client::DanceConfig has members of these names.
+/// The parts of a request about a dance and its music. Server, projects, reports and edits share
+/// them. client::DanceConfig has members of the same names.
 namespace choreo {
 
 /// How to dance. Empty: not stated.
@@ -36,7 +36,7 @@ struct DanceManner {
   double Variation() const { return variation.value_or(kDefaultVariation); }
 };
 
-/// What is known of a dance's music beforehand.
+/// Facts about a dance's music that are known before it starts.
 struct KnownMusic {
   /// Times of its beats, seconds, strictly ascending, 0 to 600: limbs are fastest on them, and
   /// events and the report contain them. Empty: a server finds them in a file, and predicts those

@@ -34,7 +34,7 @@ struct Key {
   std::optional<double> hit = {};
   std::optional<HandPose> hands = {};  ///< KeyReached::hands
 
-  /// Whether both are danced alike: hands do not count.
+  /// Whether both give the same dance. Ignores the hands.
   bool IsDancedAs(const Key& other) const {
     return id == other.id && frame == other.frame &&
            pose.root_position == other.pose.root_position &&
