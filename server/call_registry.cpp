@@ -120,8 +120,7 @@ void CallRegistry::EndIdle() {
     }
   }
   for (const Idle& one : idle) {
-    one.call->Abort(one.error);
-    if (one.unread) one.call->Reset();
+    one.call->End(one.error, one.unread ? Ending::kNow : Ending::kAfterCurrent);
   }
 }
 
@@ -151,7 +150,8 @@ void CallRegistry::StopAdmitting() {
     admitting_ = false;
     silent = Calls(/*admitted=*/false);
   }
-  for (const auto& call : silent) call->Abort(Refused(Refusal::kDraining, kGoingAway));
+  for (const auto& call : silent)
+    call->End(Refused(Refusal::kDraining, kGoingAway), Ending::kAfterCurrent);
 }
 
 void CallRegistry::AbortAll(const Error& error) {
@@ -160,7 +160,7 @@ void CallRegistry::AbortAll(const Error& error) {
     const std::lock_guard lock(mutex_);
     calls = Calls(/*admitted=*/true);
   }
-  for (const auto& call : calls) call->Abort(error);
+  for (const auto& call : calls) call->End(error, Ending::kAfterCurrent);
 }
 
 void CallRegistry::GiveUpAll() {

@@ -25,14 +25,19 @@ struct CallProgress {
   std::chrono::steady_clock::time_point since;
 };
 
+/// When a call ends.
+enum class Ending {
+  kAfterQueued,   ///< once its client has taken all queued answers
+  kAfterCurrent,  ///< once its client has taken the answer being sent; drops the others
+  kNow,           ///< even if its client reads nothing
+};
+
 /// A call in progress, for the registry.
 class Call {
  public:
   virtual ~Call() = default;
-  /// Ends the call with this error once its client has taken the answer being sent. Thread-safe.
-  virtual void Abort(const Error& error) = 0;
-  /// Ends an aborted call even if its client reads nothing. Thread-safe.
-  virtual void Reset() = 0;
+  /// Ends the call with this error. The first error counts. Thread-safe.
+  virtual void End(const Error& error, Ending ending) = 0;
   /// Ends the call after its queued answers if its token has been revoked. Thread-safe.
   virtual void EndIfRevoked() = 0;
   /// Logs the call as lost, because the process ends at once. Thread-safe.

@@ -42,13 +42,11 @@ class CallSession : public Call {
 
   Outbox<Response>& outbox() { return outbox_; }
 
-  void Abort(const Error& error) override {
-    Note(RefusalIn(error));
-    outbox_.Abort(StatusOf(error));
-    CancelDance();
+  void End(const Error& error, Ending ending = Ending::kAfterQueued) override try {
+    End(StatusOf(error), ending, RefusalIn(error));
+  } catch (const std::bad_alloc&) {
+    End({grpc::StatusCode::INTERNAL, "no memory"}, ending);  // short enough not to allocate
   }
-
-  void Reset() override { outbox_.Reset(); }
 
   // A client may be silent while the workers sample: slow models take minutes for long transitions.
   CallProgress progress() const override {
@@ -69,13 +67,6 @@ class CallSession : public Call {
     End(Unauthenticated(
         "its token has been revoked; with another one the dance goes on from the last "
         "continuation"));
-    CancelDance();
-  }
-
-  /// Ends the call with this error after all queued answers.
-  void Fail(const Error& error) {
-    EndIn(error);
-    CancelDance();
   }
 
   /// Identifies the caller; call first. Returns false if the token is not valid, which ends the
@@ -83,8 +74,7 @@ class CallSession : public Call {
   bool Authenticate(std::string_view authorization) {
     const grpc::Status status = serving_.tokens.FindHolder(authorization, &caller_.holder, &token_);
     if (status.ok()) return true;
-    Note(Refusal::kToken);
-    outbox_.Close(status);
+    End(status, Ending::kAfterQueued, Refusal::kToken);
     return false;
   }
 
@@ -102,7 +92,7 @@ class CallSession : public Call {
   /// `lost`: the status was never sent. gRPC reports a dead connection as a half-close first, so
   /// the dance may have finished normally with nobody connected.
   void Release(bool lost) noexcept try {
-    CancelDance();
+    if (const auto dance = TakeEnd()) dance->Cancel();
     serving_.frames.GiveBack(this);
     {
       const std::lock_guard lock(mutex_);
@@ -150,10 +140,10 @@ class CallSession : public Call {
     try {
       action();
     } catch (const Error& error) {
-      Fail(error);
+      End(error);
     } catch (const std::exception& error) {
       spdlog::error("{} {} stream {}: {}", method_, caller_.peer, caller_.stream_id, error.what());
-      Fail(Error(ErrorCode::kInternal, "", error.what()));
+      End(Error(ErrorCode::kInternal, "", error.what()));
     }
   }
 
@@ -183,19 +173,15 @@ class CallSession : public Call {
     outbox_.Send(std::move(response));
   }
 
-  /// Ends the call with this status after all queued answers. Frees the dance's share of the
-  /// machine for other calls before the client gets the status.
-  void End(const grpc::Status& status) {
+  /// Ends the call with this status, and cancels its dance. Frees the dance's share of the machine
+  /// for other calls before the client gets the status. `refusal`: why the call is refused; the
+  /// first reason counts.
+  void End(const grpc::Status& status, Ending ending = Ending::kAfterQueued,
+           std::optional<Refusal> refusal = {}) {
+    const std::shared_ptr<Dance> dance = TakeEnd(refusal);
     serving_.frames.GiveBack(this);
-    outbox_.Close(status);
-  }
-  void EndIn(const Error& error) {
-    Note(RefusalIn(error));
-    try {
-      End(StatusOf(error));
-    } catch (const std::bad_alloc&) {
-      End({grpc::StatusCode::INTERNAL, "no memory"});  // short enough not to allocate
-    }
+    outbox_.End(status, ending);
+    if (dance) dance->Cancel();
   }
 
   /// The gRPC status for an error, including RetryInfo's delay.
@@ -251,10 +237,12 @@ class CallSession : public Call {
                           .refusal = outbox_.status().ok() ? std::nullopt : refusal_});
   }
 
-  // Records why the call is refused; the first reason counts.
-  void Note(std::optional<Refusal> refusal) {
+  // Records that the call is over, and why. Returns its dance, or null.
+  std::shared_ptr<Dance> TakeEnd(std::optional<Refusal> refusal = {}) {
     const std::lock_guard lock(mutex_);
     if (!refusal_) refusal_ = refusal;
+    ended_ = true;
+    return dance_;
   }
 
   double Elapsed() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
@@ -267,16 +255,6 @@ class CallSession : public Call {
       current = dance_;
     }
     if (current) current->SetPaused(paused);
-  }
-
-  void CancelDance() {
-    std::shared_ptr<Dance> current;
-    {
-      const std::lock_guard lock(mutex_);
-      ended_ = true;
-      current = dance_;
-    }
-    if (current) current->Cancel();
   }
 
   /// How long a token must be missing from the file: a file being rewritten lacks some for a

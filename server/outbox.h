@@ -93,33 +93,19 @@ class Outbox {
     UpdatePressure();
   }
 
-  /// Ends the call with `status` after all queued answers. Only the first Close or Abort sets the
-  /// status.
-  void Close(const grpc::Status& status) {
-    const std::lock_guard lock(mutex_);
-    if (state_ != State::kOpen) return;
-    state_ = State::kClosing;
-    status_ = status;
-    Advance();
-  }
-
-  /// Ends the call with `status` and drops queued answers. After Close, keeps Close's status.
-  void Abort(const grpc::Status& status) {
+  /// Ends the call with `status`. Only the first End sets the status; a later one may end the call
+  /// sooner.
+  void End(const grpc::Status& status, Ending ending) {
     const std::lock_guard lock(mutex_);
     if (state_ == State::kFinished) return;
     if (state_ == State::kOpen) status_ = status;
     state_ = State::kClosing;
-    while (queue_.size() > (writing_ ? 1 : 0)) {
+    while (ending != Ending::kAfterQueued && queue_.size() > (writing_ ? 1 : 0)) {
       bytes_ -= queue_.back().bytes;
       queue_.pop_back();
     }
+    if (ending == Ending::kNow && writing_) wire_->Reset(status_);
     Advance();
-  }
-
-  /// Ends an aborted call even if the client does not take the answer being written.
-  void Reset() {
-    const std::lock_guard lock(mutex_);
-    if (writing_ && state_ != State::kFinished) wire_->Reset(status_);
   }
 
   /// Call when the reactor has handled the client's last message. Starts reading the next one as
@@ -150,7 +136,7 @@ class Outbox {
       }
       UpdatePressure();
     } else {
-      Abort({grpc::StatusCode::CANCELLED, "the client is gone"});
+      End({grpc::StatusCode::CANCELLED, "the client is gone"}, Ending::kAfterCurrent);
     }
   }
 

@@ -39,7 +39,8 @@ class SessionReactor : public Grpc, public Outbox<Response>::Wire {
   void OnWriteDone(bool ok) override { session_->outbox().OnWriteDone(ok); }
 
   void OnCancel() override {
-    session_->Abort(Error(ErrorCode::kCancelled, "", "the client is gone or its deadline passed"));
+    session_->End(Error(ErrorCode::kCancelled, "", "the client is gone or its deadline passed"),
+                  Ending::kAfterCurrent);
   }
 
   void OnDone() override {
@@ -64,7 +65,7 @@ class SessionReactor : public Grpc, public Outbox<Response>::Wire {
       serving_.calls.Enter(session_, session_->party());
       begin();
     } catch (const Error& error) {
-      session_->Fail(error);
+      session_->End(error);
     }
   }
 

@@ -97,7 +97,7 @@ class DanceSession final : public CallSession<DanceResponse, DanceStream>,
     *response.mutable_continuation() = wire::ToProto(continuation, queue_->model().skeleton, seed_);
     if (SendsFile()) response.mutable_continuation()->clear_audio_from_sample();
     outbox().Send(std::move(response));
-    if (serving_.calls.ends_at_transitions()) Fail(ResumeElsewhere());
+    if (serving_.calls.ends_at_transitions()) End(ResumeElsewhere());
   }
 
   void OnSummary(const QualityReport& report) override {
@@ -111,7 +111,7 @@ class DanceSession final : public CallSession<DanceResponse, DanceStream>,
     End(grpc::Status::OK);
   }
 
-  void OnError(const Error& error) override { EndIn(error); }
+  void OnError(const Error& error) override { End(error); }
 
  private:
   void OnSent(const DanceResponse& answer, Clock::time_point queued) override {

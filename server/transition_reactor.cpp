@@ -97,7 +97,7 @@ class TransitionSession final : public CallSession<v1::GenerateTransitionRespons
     End(grpc::Status::OK);
   }
 
-  void OnError(const Error& error) override { EndIn(error); }
+  void OnError(const Error& error) override { End(error); }
 
  private:
   // Adds a file's samples, and the beats and passages if the client gave none.

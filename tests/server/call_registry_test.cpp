@@ -13,8 +13,7 @@
 namespace choreo::call_registry_test {
 
 struct SilentCall final : Call {
-  void Abort(const Error& /*error*/) override {}
-  void Reset() override {}
+  void End(const Error& /*error*/, Ending /*ending*/) override {}
   void EndIfRevoked() override {}
   void GiveUp() noexcept override {}
   CallProgress progress() const override { return {}; }

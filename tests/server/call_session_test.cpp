@@ -70,7 +70,7 @@ TEST_F(CallSessionTest, ReadMessagesPauseNothing) {
 }
 
 TEST_F(CallSessionTest, AnOkThatNeverWentOutIsCancelled) {
-  session.outbox().Close(grpc::Status::OK);
+  session.outbox().End(grpc::Status::OK, Ending::kAfterQueued);
   session.Release(/*lost=*/true);
   const auto calls = serving.tally.calls();
   ASSERT_EQ(calls.size(), 1U);
@@ -78,7 +78,7 @@ TEST_F(CallSessionTest, AnOkThatNeverWentOutIsCancelled) {
 }
 
 TEST_F(CallSessionTest, AnErrorKeepsItsName) {
-  session.Fail(InvalidArgument("config", "missing"));
+  session.End(InvalidArgument("config", "missing"));
   session.Release(/*lost=*/true);
   const auto calls = serving.tally.calls();
   ASSERT_EQ(calls.size(), 1U);

@@ -55,7 +55,7 @@ TEST_F(OutboxTest, OneWriteAtATimeThenTheEnd) {
   outbox.Send(header);
   outbox.Send(Frames(0, 1));
   EXPECT_EQ(wire.written.size(), 1U);
-  outbox.Close(grpc::Status::OK);
+  outbox.End(grpc::Status::OK, Ending::kAfterQueued);
   outbox.Send(Frames(1, 1));  // too late
   EXPECT_FALSE(outbox.open());
   outbox.OnWriteDone(true);
@@ -143,7 +143,7 @@ TEST_F(OutboxTest, StopsReadingFromASlowReader) {
 
 TEST_F(OutboxTest, NothingIsReadAfterTheEnd) {
   outbox.Send(Frames(0, 1));
-  outbox.Close(grpc::Status::OK);
+  outbox.End(grpc::Status::OK, Ending::kAfterQueued);
   outbox.RequestRead();
   outbox.OnWriteDone(true);
   EXPECT_TRUE(wire.status);
@@ -153,7 +153,7 @@ TEST_F(OutboxTest, NothingIsReadAfterTheEnd) {
 TEST_F(OutboxTest, AbortDropsQueuedMessages) {
   outbox.Send(Frames(0, 1));
   outbox.Send(Frames(1, 1));
-  outbox.Abort({grpc::StatusCode::UNAVAILABLE, "draining"});
+  outbox.End({grpc::StatusCode::UNAVAILABLE, "draining"}, Ending::kAfterCurrent);
   EXPECT_FALSE(wire.status) << "finished with a write on its way";
   outbox.OnWriteDone(true);
   ASSERT_TRUE(wire.status);
@@ -171,9 +171,9 @@ TEST_F(OutboxTest, AFailedWriteEndsTheCall) {
 
 TEST_F(OutboxTest, TheFirstEndCounts) {
   outbox.Send(Frames(0, 1));
-  outbox.Close({grpc::StatusCode::INVALID_ARGUMENT, "first"});
-  outbox.Close(grpc::Status::OK);
-  outbox.Abort({grpc::StatusCode::CANCELLED, "third"});
+  outbox.End({grpc::StatusCode::INVALID_ARGUMENT, "first"}, Ending::kAfterQueued);
+  outbox.End(grpc::Status::OK, Ending::kAfterQueued);
+  outbox.End({grpc::StatusCode::CANCELLED, "third"}, Ending::kAfterCurrent);
   outbox.OnWriteDone(true);
   ASSERT_TRUE(wire.status);
   EXPECT_EQ(wire.status->error_message(), "first");
@@ -183,7 +183,7 @@ TEST_F(OutboxTest, TheFirstEndCounts) {
 TEST_F(OutboxTest, AHoldDefersTheEnd) {
   {
     const Outbox<Response>::Hold hold(outbox);
-    outbox.Close(grpc::Status::OK);
+    outbox.End(grpc::Status::OK, Ending::kAfterQueued);
     EXPECT_FALSE(wire.status);
   }
   EXPECT_TRUE(wire.status);
