@@ -1,19 +1,15 @@
 #include "model/dance/transition.h"
 
 #include <algorithm>
-#include <cmath>
 
-#include "model/core/error.h"
 #include "model/motion/body_limits.h"
 #include "model/motion/kinematics.h"
 #include "model/motion/pose_faults.h"
-#include "model/plan/plan_stages.h"
 
 namespace choreo {
 namespace {
 
 constexpr uint32_t kMaxTransitionRetakes = 4;
-constexpr std::ptrdiff_t kFootworkFrames = 300;  // footwork's largest part in one slice
 
 // The last `count` poses of `before` followed by the frames' poses.
 template <typename Frames, typename PoseOf>
@@ -90,13 +86,12 @@ PreparedTransition PrepareTransition(const ModelInfo& model, const TransitionInp
 TransitionRun::TransitionRun(const ModelInfo& model, const TransitionSpec& world)
     : model_(&model), spec_(WithHistory(model, world), model) {
   before_ = spec_->history;
-  world_ = before_.back();
-  world_target_ = Placed(spec_->target, spec_->controls, world_);
-  ground_ = GroundFrame::Of(world_);
-  stage_ = spec_->stage.value_or(GroundFrame{world_.root_position, ToFloat(ground_.heading)});
+  const Pose& now = before_.back();
+  world_target_ = Placed(spec_->target, spec_->controls, now);
+  ground_ = GroundFrame::Of(now);
+  stage_ = spec_->stage.value_or(GroundFrame{now.root_position, ToFloat(ground_.heading)});
   held_ = spec_->arrival_frames > 0 && IsHold(*spec_, model.fps);
   spec_ = {InCanonicalFrame(*spec_), model};
-  arrival_ = ArrivalOf(*spec_, held_ ? Arrival::Lead::kAlone : Arrival::Lead::kWithModel);
 }
 
 TransitionSpec TransitionRun::InCanonicalFrame(TransitionSpec spec) const {
@@ -133,161 +128,56 @@ bool TransitionRun::MayBeRetaken() const {
 
 // The largest ratio of a joint's speed to its limit. Above 1 the motion is faster than human
 // bodies.
-double TransitionRun::Strain() const {
-  return SpeedExcess(model_->skeleton, spec_->history.back(), plan_, model_->fps);
+double TransitionRun::Strain(const ProcessedPlan& processed) const {
+  return SpeedExcess(model_->skeleton, spec_->history.back(), processed.plan.poses, model_->fps);
 }
 
 Slices<> TransitionRun::Dance(Sampler& sampler) {
-  const TransitionRun fresh = *this;
-  co_await DanceOnce(sampler);
-  if (!MayBeRetaken()) co_return;
-  for (uint32_t take = 1; take <= kMaxTransitionRetakes && Strain() > 1; ++take) {
-    TransitionRun other = fresh;
+  ProcessedPlan calmest = co_await DanceOnce(sampler);
+  const uint32_t candidate = spec_->candidate;
+  for (uint32_t take = 1; take <= kMaxTransitionRetakes && Strain(calmest) > 1 && MayBeRetaken();
+       ++take) {
     // Distant from the numbers of other candidates and of a sampler's own retries.
-    other.set_candidate(fresh.spec().candidate + (take << 16));
-    co_await other.DanceOnce(sampler);
-    other.set_candidate(fresh.spec().candidate);
-    if (other.Strain() < Strain()) *this = std::move(other);
+    set_candidate(candidate + (take << 16));
+    ProcessedPlan other = co_await DanceOnce(sampler);
+    if (Strain(other) < Strain(calmest)) calmest = std::move(other);
   }
+  set_candidate(candidate);
+  SetFrames(calmest);
 }
 
-Slices<> TransitionRun::DanceOnce(Sampler& sampler) {
+// A hold does not use the model, because a new sample in each of these short transitions would look
+// like trembling.
+Slices<ProcessedPlan> TransitionRun::DanceOnce(Sampler& sampler) const {
+  Plan plan;
   if (held_)
-    Hold();
+    plan.poses.assign(static_cast<size_t>(spec_->frames), spec_->target->pose);
   else
-    drawn_ = co_await sampler.Begin(spec_);
-  Steer();
-  while (frames_.size() < plan_.size()) {
-    co_await Pause();
-    PutOnFeet();
-  }
-  MeasureArrival();
+    plan = co_await sampler.Begin(spec_);
+  co_return co_await ProcessPlan(*model_, *spec_, held_, std::move(plan));
 }
 
-// Does not use the model, because a new sample in each of these short transitions would look like
-// trembling.
-void TransitionRun::Hold() {
-  Motion motion{.fps = model_->fps,
-                .frames = std::vector(static_cast<size_t>(spec_->frames), spec_->target->pose)};
-  drawn_.contacts = DetectContacts(model_->skeleton, motion);
-  drawn_.poses = std::move(motion.frames);
-}
-
-void TransitionRun::Steer() {
-  CheckLength();
-  const ControlCurve& path = spec_->controls[kRootPath];
-  if (spec_->hit && arrival_) {
-    HitKey({.skeleton = model_->skeleton,
-            .history = spec_->history,
-            .has_path = path.IsGiven(),
-            .has_heights = path.IsRequested(kPathHeight),
-            .fps = model_->fps},
-           *spec_->hit, &drawn_.poses);
-  }
-  plan_.reserve(drawn_.poses.size());
-  frames_.reserve(drawn_.poses.size());
-  std::optional<Arrival> arrival = arrival_;
-  for (size_t at = 0; at < drawn_.poses.size(); ++at) {
-    const Pose& drawn = drawn_.poses[at];
-    CheckFinite(at, drawn, drawn_.contacts[at], "as the model makes it");
-    if (!drawn_.log_likelihoods.empty() && !std::isfinite(drawn_.log_likelihoods[at])) {
-      throw Error(ErrorCode::kInternal, "",
-                  "the likelihood of frame " +
-                      std::to_string(spec_->first_frame + static_cast<int64_t>(at)) +
-                      " is not finite");
-    }
-    plan_.push_back(arrival ? arrival->Apply(drawn) : drawn);
-    if (arrival && drawn_.poses.size() - at <= static_cast<size_t>(arrival->window())) {
-      correction_m_ = std::max(
-          correction_m_,
-          ComparePoses(model_->skeleton, drawn, plan_.back(), spec_->target->mask).position_m);
+void TransitionRun::SetFrames(const ProcessedPlan& processed) {
+  const auto& [poses, contacts, log_likelihoods] = processed.plan;
+  const ControlCurve& factors = spec_->controls[kVelocityFactors];
+  Pose before = before_.back();
+  for (size_t at = 0; at < poses.size(); ++at) {
+    before = RoundToFloat(KeepSigns(ground_.ToWorld(poses[at]), before));
+    DanceFrame& frame = frames_.emplace_back(DanceFrame{before, contacts[at]});
+    if (!log_likelihoods.empty()) frame.log_likelihood = log_likelihoods[at];
+    if (factors.IsGiven()) {
+      std::ranges::copy(factors.values.col(static_cast<Eigen::Index>(at)).cast<float>(),
+                        frame.asked_speeds.emplace().begin());
     }
   }
-}
-
-void TransitionRun::CheckLength() const {
-  const auto frames = static_cast<size_t>(spec_->frames);
-  const size_t likelihoods = drawn_.log_likelihoods.size();
-  if (drawn_.poses.size() == frames && drawn_.contacts.size() == frames &&
-      (likelihoods == 0 || likelihoods == frames))
-    return;
-  throw Error(ErrorCode::kInternal, "",
-              "the model's plan of " + std::to_string(frames) + " frames has " +
-                  std::to_string(drawn_.poses.size()) + " poses, " +
-                  std::to_string(drawn_.contacts.size()) + " contacts and " +
-                  std::to_string(likelihoods) + " likelihoods");
-}
-
-void TransitionRun::CheckFinite(size_t frame, const Pose& pose, std::span<const float> contacts,
-                                const std::string& whose) const {
-  bool finite = pose.root_position.allFinite() && pose.rotations.allFinite();
-  for (float contact : contacts) finite = finite && std::isfinite(contact);
-  if (finite && pose.rotations.cols() == model_->skeleton.joints()) return;
-  throw Error(ErrorCode::kInternal, "",
-              "frame " + std::to_string(spec_->first_frame + static_cast<int64_t>(frame)) + ", " +
-                  whose + ", is not a finite pose");
-}
-
-// Processes only a part of the frames, so that other dances need not wait for a long plan's
-// footwork. Parts are about equally long, because in a short last part the pelvis would have to
-// move too fast to the key.
-void TransitionRun::PutOnFeet() {
-  const auto from = plan_.begin() + std::ssize(frames_);
-  const std::ptrdiff_t left = plan_.end() - from;
-  const std::ptrdiff_t parts = (left + kFootworkFrames - 1) / kFootworkFrames;
-  const auto to = from + (left + parts - 1) / parts;
-  std::vector<Contacts> contacts;
-  if (spec_->footwork) {
-    const std::vector<Pose> history =
-        LastPoses(spec_->history.size(), spec_->history, std::span(plan_.begin(), from),
-                  [](const Pose& pose) -> const Pose& { return pose; });
-    const FootworkContext context{
-        .skeleton = model_->skeleton,
-        .history = history,
-        .keyed = to == plan_.end() && arrival_,
-        .held = held_,
-        .has_path = spec_->controls[kRootPath].IsGiven(),
-        .has_heights = spec_->controls[kRootPath].IsRequested(kPathHeight),
-        .offset_before = offset_,
-        .fps = model_->fps,
-        .options = model_->footwork};
-    std::vector<Pose> piece(from, to);
-    Footwork footwork = StandOnFeet(context, &piece);
-    std::ranges::copy(piece, from);
-    contacts = std::move(footwork.contacts);
-    offset_ = footwork.offset;
-  }
-  const auto first = frames_.size();
-  const auto last = static_cast<size_t>(to - plan_.begin());
-  if (!contacts.empty())
-    std::ranges::copy(contacts, drawn_.contacts.begin() + static_cast<std::ptrdiff_t>(first));
-  for (size_t at = first; at < last; ++at) frames_.push_back(Finish(at));
-}
-
-DanceFrame TransitionRun::Finish(size_t at) {
-  const Contacts& contacts = drawn_.contacts[at];
-  world_ = RoundToFloat(KeepSigns(ground_.ToWorld(plan_[at]), world_));
-  CheckFinite(at, world_, contacts, "as arrival and footwork leave it");
-  DanceFrame frame{world_, contacts};
-  if (!drawn_.log_likelihoods.empty()) frame.log_likelihood = drawn_.log_likelihoods[at];
-  if (const ControlCurve& factors = spec_->controls[kVelocityFactors]; factors.IsGiven()) {
-    std::ranges::copy(factors.values.col(static_cast<Eigen::Index>(at)).cast<float>(),
-                      frame.asked_speeds.emplace().begin());
-  }
-  return frame;
-}
-
-void TransitionRun::MeasureArrival() {
   if (!spec_->target) return;
-  const PoseMask& mask = spec_->target->mask;
-  const PoseError raw =
-      ComparePoses(model_->skeleton, drawn_.poses.back(), spec_->target->pose, mask);
-  const PoseError final = ComparePoses(model_->skeleton, world_, world_target_->pose, mask);
+  const PoseError final =
+      ComparePoses(model_->skeleton, frames_.back().pose, world_target_->pose, spec_->target->mask);
   arrival_result_ = KeyReached{.frame = spec_->first_frame + spec_->frames - 1,
-                               .raw_error_m = raw.position_m,
+                               .raw_error_m = processed.raw_error.position_m,
                                .final_error_m = final.position_m,
                                .final_error_deg = final.angle_deg,
-                               .correction_m = correction_m_};
+                               .correction_m = processed.correction_m};
 }
 
 DancedState TransitionRun::StateAfter(size_t frames) const {

@@ -18,8 +18,7 @@
 #include "model/messages/dance_manner.h"
 #include "model/motion/canonical.h"
 #include "model/motion/motion.h"
-#include "model/plan/arrival.h"
-#include "model/plan/footwork.h"
+#include "model/plan/process_plan.h"
 #include "model/plan/sampler.h"
 
 namespace choreo {
@@ -27,7 +26,7 @@ namespace choreo {
 /// One finished frame.
 struct DanceFrame {
   Pose pose;               ///< world; rounded to floats, as sent and as the next transition uses it
-  Contacts contacts = {};  ///< the model's own if there is no footwork
+  Contacts contacts = {};  ///< without footwork, the model's own if it has any
   std::optional<float> log_likelihood = {};  ///< nats; none if the model has no exact likelihood
   /// The speeds requested by velocity factors in this frame, by BodyPart, metres per frame.
   std::optional<std::array<float, kBodyParts>> asked_speeds = {};
@@ -52,8 +51,8 @@ struct TransitionInputs {
   TransitionMusic music = {};
 };
 
-/// Generates one transition slice by slice: samples it, steers it onto its key, and corrects its
-/// footwork. A pure function of the spec and the model. Streams, single transitions and evaluation
+/// Generates one transition slice by slice: samples and processes a plan (plan/process_plan.h). A
+/// pure function of the spec and the model. Streams, single transitions and evaluation
 /// share this code. Not thread-safe.
 class TransitionRun {
  public:
@@ -88,33 +87,19 @@ class TransitionRun {
  private:
   TransitionSpec InCanonicalFrame(TransitionSpec spec) const;
   bool MayBeRetaken() const;
-  double Strain() const;
-  Slices<> DanceOnce(Sampler& sampler);
-  void CheckLength() const;
-  void Hold();
-  void Steer();
-  void PutOnFeet();
-  DanceFrame Finish(size_t at);
-  void MeasureArrival();
-  void CheckFinite(size_t frame, const Pose& pose, std::span<const float> contacts,
-                   const std::string& whose) const;
+  double Strain(const ProcessedPlan& processed) const;
+  Slices<ProcessedPlan> DanceOnce(Sampler& sampler) const;
+  void SetFrames(const ProcessedPlan& processed);
 
   const ModelInfo* model_;
   ValidSpec spec_;
   std::optional<Target> world_target_;
   GroundFrame ground_;
-  std::optional<Arrival> arrival_;  // none: no steering
-  bool held_ = false;               // whether the dancer holds the target's pose
-  GroundFrame stage_;               // world
-  std::vector<Pose> before_;        // the history, world
-  Pose world_;                      // the newest frame; later rotations keep its signs
-
-  Plan drawn_;              // as sampled
-  std::vector<Pose> plan_;  // canonical and steered; footwork is corrected for frames_ only
-  Eigen::Matrix<double, 3, 2> offset_ = Eigen::Matrix<double, 3, 2>::Zero();  // Footwork::offset
+  bool held_ = false;         // whether the dancer holds the target's pose
+  GroundFrame stage_;         // world
+  std::vector<Pose> before_;  // the history, world
   std::vector<DanceFrame> frames_;
   std::optional<KeyReached> arrival_result_;
-  double correction_m_ = 0;
 };
 
 struct PreparedTransition {

@@ -7,15 +7,16 @@
 namespace choreo {
 namespace {
 
-ModelInfo Named(ModelInfo model) {
+ModelInfo Baseline(ModelInfo model) {
   model.name = model.fingerprint = "interpolation";
+  model.plan_stages = false;
   return model;
 }
 
 }  // namespace
 
 InterpolationSampler::InterpolationSampler(ModelInfo model)
-    : Sampler(Named(std::move(model)), "cpu") {}
+    : Sampler(Baseline(std::move(model)), "cpu") {}
 
 Slices<Plan> InterpolationSampler::Begin(const ValidSpec& valid) {
   const TransitionSpec& spec = *valid;
@@ -28,7 +29,6 @@ Slices<Plan> InterpolationSampler::Begin(const ValidSpec& valid) {
     if (spec.controls[kRootPath].IsGiven())
       pose.root_position = spec.controls[kRootPath].values.col(frame);
   }
-  plan.contacts.resize(plan.poses.size());
   co_return plan;
 }
 

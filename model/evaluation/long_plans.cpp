@@ -128,7 +128,7 @@ std::vector<Pose> RealThroughFootwork(const ModelInfo& model, const LongPlan& pl
                  .history = std::span(emitted).last(plan.history.size()),
                  .keyed = keyed,
                  .fps = model.fps,
-                 .options = model.footwork},
+                 .options = model.plan.footwork},
                 &piece);
     std::vector<Pose> standing;
     for (const Pose& pose : piece) standing.push_back(RoundToFloat(pose));

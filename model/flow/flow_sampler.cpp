@@ -17,7 +17,6 @@
 #include "model/motion/kinematics.h"
 #include "model/motion/motion.h"
 #include "model/motion/resample.h"
-#include "model/plan/plan_stages.h"
 
 namespace choreo {
 namespace {
@@ -262,20 +261,6 @@ Slices<Plan> ContinuousFlowSampler::Begin(const ValidSpec& valid) {
       plan.poses = std::move(poses);
     }
   }
-
-  const PlanContext context{.skeleton = model_.skeleton,
-                            .history = spec.history,
-                            .beats = spec.beats,
-                            .keyed = Keyed(spec),
-                            .has_path = spec.controls[kRootPath].IsGiven(),
-                            .has_heights = spec.controls[kRootPath].IsRequested(kPathHeight),
-                            .fps = model_.fps,
-                            .options = parts_->config.plan};
-  for (const auto stage : kPlanStages) stage(context, &plan.poses);
-  Motion motion{.fps = model_.fps, .frames = {spec.history.back()}};
-  motion.frames.insert(motion.frames.end(), plan.poses.begin(), plan.poses.end());
-  plan.contacts = DetectContacts(model_.skeleton, motion);
-  plan.contacts.erase(plan.contacts.begin());  // the history's
   co_return plan;
 }
 

@@ -54,9 +54,8 @@ Slices<std::vector<Pose>> SampleTransition(const FlowModelParts& model, const Fl
                                            WindowRequest request, FlowNoise noise);
 
 /// Samples the continuous flow. A slice is one evaluation of its network, in rounds if energy is
-/// requested; the last slice runs the plan's stages. Windows are sampled one after another, so a
-/// transition's bits depend on nothing else. Its music input is beats, not sound. Made by
-/// samplers.h.
+/// requested. Windows are sampled one after another, so a transition's bits depend on nothing else.
+/// Its music input is beats, not sound. Plans have no contacts. Made by samplers.h.
 class ContinuousFlowSampler : public Sampler {
  public:
   ContinuousFlowSampler(ModelInfo info, std::string device,

@@ -12,10 +12,12 @@
 /// Independent of torch and gRPC.
 namespace choreo {
 
-/// A model's output for a whole transition, in its canonical frame, before arrival and footwork.
+/// A model's output for a whole transition, in its canonical frame (plan/process_plan.h says what
+/// follows).
 struct Plan {
-  std::vector<Pose> poses;         ///< [frames]
-  std::vector<Contacts> contacts;  ///< [frames], probability-like, [0, 1]
+  std::vector<Pose> poses;  ///< [frames]
+  /// [frames], probability-like, [0, 1]; empty if the model has none of its own.
+  std::vector<Contacts> contacts;
   /// [frames] nats (in the model's standardised space, including log-determinants); empty if the
   /// model has no exact ones.
   std::vector<float> log_likelihoods;

@@ -19,7 +19,7 @@
 #include "model/motion/skeleton.h"
 #include "model/motion/velocity_factors.h"
 #include "model/plan/arrival.h"
-#include "model/plan/footwork_options.h"
+#include "model/plan/plan_options.h"
 
 /// Descriptions of a model, and of a transition to sample.
 namespace choreo {
@@ -60,7 +60,8 @@ struct ModelInfo {
   /// "median", is the default.
   std::vector<VelocityReference> velocity_references = {};
   std::vector<std::string> styles = {};  ///< available for requests
-  FootworkOptions footwork = {};
+  bool plan_stages = false;  ///< whether its plans pass kPlanStages (plan/plan_stages.h)
+  PlanOptions plan = {};     ///< settings of those stages and of footwork
 
   bool Takes(std::string_view control) const {
     return std::ranges::find(controls, control) != controls.end();

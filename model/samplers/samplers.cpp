@@ -42,7 +42,8 @@ SamplerFactory LoadContinuousFlow(const Safetensors& content, const std::string&
   info.controls = ControlNames();
   info.velocity_references = {MedianReference(config.median_factors)};
   info.styles = config.styles;
-  info.footwork = config.plan.footwork;
+  info.plan_stages = true;
+  info.plan = config.plan;
   return [info, device = request.device.name(), parts, network] {
     return std::make_unique<ContinuousFlowSampler>(info, device, parts, network);
   };

@@ -352,10 +352,9 @@ class OddSampler final : public FakeSampler {
 };
 
 TEST(Transition, RefusesAPlanOfAnotherLength) {
-  for (void (*spoil)(Plan&) :
-       {+[](Plan& plan) { plan.poses.push_back(plan.poses.back()); },
-        +[](Plan& plan) { plan.contacts.pop_back(); }, +[](Plan& plan) { plan.contacts.clear(); },
-        +[](Plan& plan) { plan.log_likelihoods.pop_back(); }}) {
+  for (void (*spoil)(Plan&) : {+[](Plan& plan) { plan.poses.push_back(plan.poses.back()); },
+                               +[](Plan& plan) { plan.contacts.pop_back(); },
+                               +[](Plan& plan) { plan.log_likelihoods.pop_back(); }}) {
     OddSampler sampler(spoil);
     ExpectError(ErrorCode::kInternal, "the model's plan of 30 frames has ",
                 [&] { DanceTransition(sampler, RandomRequest(4)); });
