@@ -5,11 +5,10 @@
 #include "model/motion/body_limits.h"
 #include "model/motion/kinematics.h"
 #include "model/motion/pose_faults.h"
+#include "model/plan/takes.h"
 
 namespace choreo {
 namespace {
-
-constexpr uint32_t kMaxTransitionRetakes = 4;
 
 // The last `count` poses of `before` followed by the frames' poses.
 template <typename Frames, typename PoseOf>
@@ -116,34 +115,29 @@ TransitionSpec TransitionRun::InCanonicalFrame(TransitionSpec spec) const {
   return spec;
 }
 
-// Whether another sample may be slower, because the direct way to the key is slow enough.
-bool TransitionRun::MayBeRetaken() const {
-  if (held_ || !spec_->footwork || model_->deterministic || spec_->temperature == 0) return false;
-  if (!spec_->target) return true;
-  const auto& [pose, mask, height] = *spec_->target;
-  const Pose key = Masked(pose, mask, spec_->history.back());
-  return SpeedExcess(model_->skeleton, spec_->history.back(), {&key, 1},
-                     model_->fps / spec_->frames) <= 1;
-}
-
-// The largest ratio of a joint's speed to its limit. Above 1 the motion is faster than human
-// bodies.
-double TransitionRun::Strain(const ProcessedPlan& processed) const {
-  return SpeedExcess(model_->skeleton, spec_->history.back(), processed.plan.poses, model_->fps);
+// The largest ratio of a joint's speed to the limit of human bodies. 0 if another take would not be
+// slower, because the model has no other or the direct way to the key is too fast.
+double TransitionRun::ExcessOf(const std::vector<Pose>& poses) const {
+  if (held_ || !spec_->footwork || model_->deterministic || spec_->temperature == 0) return 0;
+  const Pose& now = spec_->history.back();
+  if (spec_->target) {
+    const Pose key = Masked(spec_->target->pose, spec_->target->mask, now);
+    if (SpeedExcess(model_->skeleton, now, {&key, 1}, model_->fps / spec_->frames) > 1) return 0;
+  }
+  return SpeedExcess(model_->skeleton, now, poses, model_->fps);
 }
 
 Slices<> TransitionRun::Dance(Sampler& sampler) {
-  ProcessedPlan calmest = co_await DanceOnce(sampler);
+  BestTake<ProcessedPlan> best;
   const uint32_t candidate = spec_->candidate;
-  for (uint32_t take = 1; take <= kMaxTransitionRetakes && Strain(calmest) > 1 && MayBeRetaken();
-       ++take) {
-    // Distant from the numbers of other candidates and of a sampler's own retries.
-    set_candidate(candidate + (take << 16));
-    ProcessedPlan other = co_await DanceOnce(sampler);
-    if (Strain(other) < Strain(calmest)) calmest = std::move(other);
+  while (best.NeedsAnother()) {
+    set_candidate(CandidateOfTake(candidate, kTransitionTake * best.takes()));
+    ProcessedPlan processed = co_await DanceOnce(sampler);
+    const double excess = ExcessOf(processed.plan.poses);
+    best.Add(std::move(processed), excess);
   }
   set_candidate(candidate);
-  SetFrames(calmest);
+  SetFrames(best.motion());
 }
 
 // A hold does not use the model, because a new sample in each of these short transitions would look

@@ -66,7 +66,7 @@ class TransitionRun {
   void set_candidate(uint32_t candidate) { spec_.set_candidate(candidate); }
 
   /// Generates all frames. If a joint moves faster than human bodies can and no key requires it,
-  /// samples again up to four times and keeps the slowest result. The sampler and this object must
+  /// samples again and keeps the slowest take (plan/takes.h). The sampler and this object must
   /// outlive the slices, and this object must not be moved meanwhile. Throws Error(kInternal) for a
   /// plan of the wrong length, and for any value that is not finite.
   Slices<> Dance(Sampler& sampler);
@@ -86,8 +86,7 @@ class TransitionRun {
 
  private:
   TransitionSpec InCanonicalFrame(TransitionSpec spec) const;
-  bool MayBeRetaken() const;
-  double Strain(const ProcessedPlan& processed) const;
+  double ExcessOf(const std::vector<Pose>& poses) const;
   Slices<ProcessedPlan> DanceOnce(Sampler& sampler) const;
   void SetFrames(const ProcessedPlan& processed);
 

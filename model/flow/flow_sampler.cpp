@@ -17,6 +17,7 @@
 #include "model/motion/kinematics.h"
 #include "model/motion/motion.h"
 #include "model/motion/resample.h"
+#include "model/plan/takes.h"
 
 namespace choreo {
 namespace {
@@ -25,7 +26,6 @@ namespace {
 // window without a key may end, unless it began farther off. One in 200 of the training clips'
 // frames is farther. A dance that goes there knows no way back: it falls or floats.
 constexpr double kMaxDeviation = 7;
-constexpr int kMaxWindowRetakes = 4;
 constexpr int kRounds = 3;  // of requesting energy
 
 // The random numbers of a window, [.., w]: of the motion's dimensions, then of the energy's levels
@@ -193,31 +193,26 @@ Slices<std::vector<Pose>> SampleTransition(const FlowModelParts& model, const Fl
     const bool may_stray = !(part.key && part.to_key == part.frames) &&
                            !request.controls[kRootPath].IsRequested(kPathHeight);
     const double most = std::max(kMaxDeviation, usual.Deviation(danced.back()));
-    std::vector<Pose> nearest;
-    double least = 0;  // how far it is beyond what dancers do: at most 1 if it is not
-    for (int take = 0; take <= kMaxWindowRetakes; ++take) {
+    BestTake<std::vector<Pose>> best;
+    while (best.NeedsAnother()) {
       FlowNoise own = noise;
       own.first_frame += from;
-      own.candidate += static_cast<uint32_t>(kMaxCandidates * take);
+      own.candidate = CandidateOfTake(noise.candidate, best.takes());
       if (!own.like.empty()) own.like.erase(own.like.begin(), own.like.begin() + from);
       WindowRequest own_part = part;
       if (part.FrontCounts())
         own_part.turn = FreeTurn(model.prior, part,
                                  std::min(own.temperature, 1.0) * NumberFor(kFreeTurn, model, own));
       std::vector<Pose> poses = co_await SampleWindow(model, network, own_part, own);
-      double beyond = 0;
+      double excess = 0;
       if (noise.temperature > 0) {
-        beyond = SpeedExcess(model.skeleton, part.history.back(), poses, kModelFps);
+        excess = SpeedExcess(model.skeleton, part.history.back(), poses, kModelFps);
         if (may_stray)
-          beyond = std::max(beyond, usual.Deviation(ground.ToWorld(poses.back())) / most);
+          excess = std::max(excess, usual.Deviation(ground.ToWorld(poses.back())) / most);
       }
-      if (take == 0 || beyond < least) {
-        nearest = std::move(poses);
-        least = beyond;
-      }
-      if (!(beyond > 1)) break;
+      best.Add(std::move(poses), excess);
     }
-    for (const Pose& pose : nearest) {
+    for (const Pose& pose : best.motion()) {
       danced.push_back(ground.ToWorld(pose));
       MakeContinuous(danced.back(), danced[danced.size() - 2]);
     }
