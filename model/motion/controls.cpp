@@ -12,6 +12,18 @@ namespace {
 constexpr std::pair<BodyPart, BodyPart> kSides[] = {{BodyPart::kLeftArm, BodyPart::kRightArm},
                                                     {BodyPart::kLeftLeg, BodyPart::kRightLeg}};
 
+// Places are [x, y, z]; code for body parts counts on a channel for each.
+void CheckChannels(const ControlRow& row) {
+  int wanted = row.channels;
+  if (row.space == ControlSpace::kPlace || row.features == ControlFeatures::kOffMean) wanted = 3;
+  if (row.space == ControlSpace::kPerPart || row.features == ControlFeatures::kLevel)
+    wanted = kBodyParts;
+  if (row.channels == wanted) return;
+  throw InvalidArgument(
+      "controls." + std::string(row.name),
+      std::to_string(row.channels) + " channels, must be " + std::to_string(wanted));
+}
+
 void CheckCurve(const ControlRow& row, const ControlCurve& curve, int frames,
                 const std::string& field) {
   const Eigen::MatrixXd& values = curve.values;
@@ -43,8 +55,10 @@ std::vector<std::string> ControlNames() {
 }
 
 Controls::Controls(std::span<const ControlRow> rows) : rows_(rows), curves_(rows.size()) {
-  for (size_t i = 0; i < rows.size(); ++i)
+  for (size_t i = 0; i < rows.size(); ++i) {
+    CheckChannels(rows[i]);
     curves_[i].requested.assign(static_cast<size_t>(rows[i].channels), true);
+  }
 }
 
 void Controls::Check(std::span<const std::string> taken, const std::string& model,

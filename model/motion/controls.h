@@ -27,7 +27,8 @@ enum class ControlSpace {
 enum class ControlFeatures {
   kOffMean,  ///< for positions: whether requested, whether with a height, and the offset from the
              ///< mean way
-  kLevel,    ///< EnergyLevel over the training clips' medians, and whether each is requested
+  kLevel,    ///< for kBodyParts speeds: EnergyLevel over the training clips' medians, and whether
+             ///< each is requested
   kPlain,    ///< the numbers, of order one, and whether each is requested
 };
 
@@ -76,7 +77,8 @@ struct ControlCurve {
 class Controls {
  public:
   Controls() : Controls(kControls) {}
-  /// `rows` must outlive it.
+  /// `rows` must outlive it. Throws Error(kInvalidArgument), naming the row, if its channels do not
+  /// fit its space or features.
   explicit Controls(std::span<const ControlRow> rows);
 
   std::span<const ControlRow> rows() const { return rows_; }

@@ -41,6 +41,20 @@ TEST(ToyControl, IsValidatedAndNamed) {
   refused({"gaze", "weight"}, "controls.gaze: 2 numbers a frame, must be 3");
 }
 
+// The level of a sixth channel was read beyond the medians of the five body parts.
+TEST(ToyControl, HasTheChannelsOfItsSpaceAndFeatures) {
+  const auto refused = [](ControlSpace space, int channels, ControlFeatures features,
+                          const std::string& message) {
+    const ControlRow row{"toy", "toy", "--toy", space, channels, features};
+    ExpectError(ErrorCode::kInvalidArgument, message, [&] { Controls({&row, 1}); });
+  };
+  refused(ControlSpace::kPlain, kBodyParts + 1, ControlFeatures::kLevel,
+          "controls.toy: 6 channels, must be 5");
+  refused(ControlSpace::kPerPart, 4, ControlFeatures::kPlain,
+          "controls.toy: 4 channels, must be 5");
+  refused(ControlSpace::kPlace, 2, ControlFeatures::kPlain, "controls.toy: 2 channels, must be 3");
+}
+
 TEST(ToyControl, IsCutTurnedAndMirrored) {
   const WindowRequest request = Toy();
   const GroundFrame quarter{.origin = {1, 0, 1}, .heading = std::numbers::pi / 2};
