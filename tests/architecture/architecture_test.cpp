@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cctype>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -203,37 +202,95 @@ const std::string& TextOf(const std::string& file) {
   return text->second;
 }
 
+// A file's text without its comments.
+const std::string& CodeOf(const std::string& file) {
+  static std::map<std::string, std::string> codes;
+  const auto [code, is_new] = codes.try_emplace(file);
+  if (is_new) code->second = std::regex_replace(TextOf(file), std::regex("//[^\n]*"), "");
+  return code->second;
+}
+
 // "Push(" or, of a constructor, "FlowWindow window(" or "std::make_shared<DanceChain>(".
 bool Mentions(const std::string& file, const std::string& function) {
-  const std::string& text = TextOf(file);
-  const auto is_word = [&](size_t i) { return std::isalnum(text[i]) != 0 || text[i] == '_'; };
-  for (size_t at = text.find(function); at != std::string::npos; at = text.find(function, at + 1)) {
-    if (at > 0 && is_word(at - 1)) continue;
-    size_t end = at + function.size();
-    if (end < text.size() && text[end] == '>') ++end;
-    if (end < text.size() && text[end] == ' ') ++end;
-    while (text.compare(at + function.size(), 1, " ") == 0 && end < text.size() && is_word(end))
-      ++end;
-    if (end < text.size() && text[end] == '(') return true;
+  const std::regex mention("\\b" + function + R"((>| \w+)?\()");
+  return std::regex_search(CodeOf(file), mention);
+}
+
+// The classes whose member the step's function is as its file defines it, "" for a free function.
+std::set<std::string> OwnersOf(const Step& step) {
+  // The line up to the name has nothing but a type and the owner; arguments and a body follow.
+  const std::regex definition("(^|\n)( *)([\\w:<>,&* ]*[ &*])?((\\w+)::)?" + step.function +
+                              R"(\([^;{]*\)[\w ]*(\{|:))");
+  const std::regex type(R"((?:class|struct) (\w+)[^;{}]*\{)");
+  const std::string& code = CodeOf(step.file);
+  std::set<std::string> owners;
+  for (std::sregex_iterator at(code.begin(), code.end(), definition), end; at != end; ++at) {
+    std::string owner = at->str(5);
+    if (at->length(2) > 0) {  // within its class, the last one that has begun
+      const std::string before = code.substr(0, static_cast<size_t>(at->position()));
+      for (std::sregex_iterator begun(before.begin(), before.end(), type); begun != end; ++begun)
+        owner = begun->str(1);
+    }
+    owners.insert(owner);
   }
-  return false;
+  return owners;
+}
+
+// Whether a header declares the function in that class, or outside all for "".
+bool Declares(const std::string& header, const std::string& owner, const std::string& function) {
+  if (!header.ends_with(".h") || !Mentions(header, function)) return false;
+  const std::string& code = CodeOf(header);
+  return owner.empty()
+             ? std::regex_search(code, std::regex("\n[\\w:<>,&* ]*[ &*]" + function + "\\("))
+             : std::regex_search(code, std::regex("(class|struct) " + owner + "\\b[^;{}]*\\{"));
+}
+
+// That class and those from which a header derives it: a caller may know one of these alone.
+std::set<std::string> WithBases(const std::set<std::string>& headers, const std::string& owner) {
+  std::set<std::string> classes = {owner};
+  const std::regex derived("(class|struct) " + owner + R"(\b[^;{}:]*:([^;{}]*)\{)");
+  const std::regex base(R"(public ((\w+::)*)(\w+))");
+  for (const std::string& header : headers) {
+    const std::string& code = CodeOf(header);
+    std::smatch found;
+    if (owner.empty() || !std::regex_search(code, found, derived)) continue;
+    const std::string list = found.str(2);
+    for (std::sregex_iterator at(list.begin(), list.end(), base), end; at != end; ++at)
+      classes.insert(at->str(3));
+  }
+  return classes;
 }
 
 // Its functions are one call each.
 constexpr const char* kFacade = "model/dance/dance_stream.h";
 
-// Whether `caller` calls the step's function, itself or through the facade. A header that both
-// files see has the function.
+// Whether `caller` calls the step's function, itself or through the facade: it includes the header
+// that declares it in the very class, or the free function.
 bool Calls(const std::string& caller, const Step& step) {
   std::set<std::string> seen = Sources().All(caller), known = Sources().All(step.file);
   seen.insert(caller);
   known.insert(step.file);
-  return (Mentions(caller, step.function) ||
-          (seen.contains(kFacade) && Mentions(kFacade, step.function))) &&
-         std::ranges::any_of(seen, [&](const std::string& header) {
-           return header.ends_with(".h") && known.contains(header) &&
-                  Mentions(header, step.function);
-         });
+  if (!Mentions(caller, step.function) &&
+      !(seen.contains(kFacade) && Mentions(kFacade, step.function)))
+    return false;
+  for (const std::string& defined : OwnersOf(step)) {
+    for (const std::string& owner : WithBases(known, defined)) {
+      for (const std::string& header : known) {
+        if (seen.contains(header) && Declares(header, owner, step.function)) return true;
+      }
+    }
+  }
+  return false;
+}
+
+// Names alone do not make a call: who does not know the class calls another's function.
+TEST(Architecture, ACallNeedsTheHeaderOfItsClass) {
+  const Step push{"model/dance/audio_feed.cpp", "Push"};
+  EXPECT_EQ(OwnersOf(push), std::set<std::string>{"AudioFeed"});
+  EXPECT_TRUE(Calls("model/dance/dance_chain.cpp", push));
+  ASSERT_TRUE(Mentions("model/audio/feature_stream.cpp", "Push"));
+  EXPECT_FALSE(Calls("model/audio/feature_stream.cpp", push)) << "it pushes to a resampler";
+  EXPECT_TRUE(OwnersOf({"model/dance/dance_chain.cpp", "FlowWindow"}).empty());
 }
 
 // The page follows what is sent, from function to function, until a frame is sent.
@@ -252,9 +309,9 @@ TEST(Architecture, TheWaysOnThePageFollowTheCode) {
     }
     ASSERT_GT(way.size(), 5U) << sent;
     std::set<std::string> files = {way[0].file};
-    EXPECT_TRUE(Mentions(way[0].file, way[0].function)) << way[0].file;
+    for (const Step& step : way)
+      EXPECT_FALSE(OwnersOf(step).empty()) << step.file << " does not define " << step.function;
     for (size_t i = 1; i < way.size(); ++i) {
-      EXPECT_TRUE(Mentions(way[i].file, way[i].function)) << way[i].file << " has no such function";
       EXPECT_TRUE(std::any_of(way.begin(), way.begin() + static_cast<std::ptrdiff_t>(i),
                               [&](const Step& before) { return Calls(before.file, way[i]); }))
           << sent << ": nothing before calls " << way[i].function << " of " << way[i].file;
