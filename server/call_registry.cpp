@@ -36,7 +36,7 @@ void CallRegistry::Enter(const std::shared_ptr<Call>& call, std::string party) {
   const std::lock_guard lock(mutex_);
   if (!admitting_) throw Refused(Refusal::kDraining, kGoingAway);
   if (visits_[0].party != party) std::swap(visits_[0], visits_[1]);
-  visits_[0] = {party, Clock::now()};
+  visits_[0] = {party, time_.Now()};
   const auto found = of_party_.find(party);
   const int calls = found == of_party_.end() ? 0 : found->second, most = MostOf(party);
   if (calls >= most) {
@@ -47,7 +47,7 @@ void CallRegistry::Enter(const std::shared_ptr<Call>& call, std::string party) {
                                                std::to_string(most) + " for one caller");
   }
   ++of_party_[party];
-  calls_.emplace(call.get(), Entry{call, std::move(party), Clock::now()});
+  calls_.emplace(call.get(), Entry{call, std::move(party), time_.Now()});
 }
 
 void CallRegistry::Admit(const Call* call) {
@@ -56,7 +56,7 @@ void CallRegistry::Admit(const Call* call) {
   if (!admitting_ || at == calls_.end()) throw Refused(Refusal::kDraining, kGoingAway);
   if (admitted_ >= limits_.calls) throw Full(admitted_, limits_.calls);
   at->second.admitted = true;
-  at->second.since = Clock::now();
+  at->second.since = time_.Now();
   ++admitted_;
 }
 
@@ -67,7 +67,7 @@ void CallRegistry::Leave(const Call* call) {
   const Entry& entry = at->second;
   if (entry.admitted) {
     --admitted_;
-    const double took = std::chrono::duration<double>(Clock::now() - entry.since).count();
+    const double took = std::chrono::duration<double>(time_.Now() - entry.since).count();
     mean_seconds_ +=
         std::max(kShareOfLast, 1.0 / static_cast<double>(++ended_)) * (took - mean_seconds_);
     refused_ = std::max(0, refused_ - 1);
@@ -92,7 +92,7 @@ void CallRegistry::EndIdle() {
   };
   std::vector<Idle> idle;
   {
-    const auto now = Clock::now();
+    const auto now = time_.Now();
     const std::lock_guard lock(mutex_);
     for (const auto& [key, entry] : calls_) {
       const auto call = entry.call.lock();
@@ -194,7 +194,7 @@ bool CallRegistry::HasRival(const std::string& party) const {
 
 bool CallRegistry::IsRivalled(const std::string& party) const {
   if (of_party_.size() > (of_party_.contains(party) ? 1U : 0U)) return true;
-  const auto now = Clock::now();
+  const auto now = time_.Now();
   return std::ranges::any_of(visits_, [&](const Visit& visit) {
     return !visit.party.empty() && visit.party != party && now - visit.at < kThere;
   });

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "model/core/error.h"
+#include "server/time_source.h"
 
 namespace choreo {
 
@@ -64,7 +65,9 @@ Error ResumeElsewhere();
 /// not take others' places. Thread-safe.
 class CallRegistry {
  public:
-  explicit CallRegistry(const CallLimits& limits) : limits_(limits) {}
+  /// `time` must outlive this.
+  explicit CallRegistry(const CallLimits& limits, const TimeSource& time = TimeSource::System())
+      : limits_(limits), time_(time) {}
 
   /// `party`: the caller to whom the call is counted (Caller::Party). Throws Refused if the caller
   /// has too many calls, and after StopAdmitting.
@@ -100,6 +103,7 @@ class CallRegistry {
   /// The calls of one caller, including those without a first message.
   int CountOf(const std::string& party) const;
   const CallLimits& limits() const { return limits_; }
+  const TimeSource& time() const { return time_; }
   /// The share in use of the limit on all calls or of that on the busiest caller, whichever is
   /// larger.
   double utilisation() const;
@@ -131,6 +135,7 @@ class CallRegistry {
   double Spread(double seconds);
 
   const CallLimits limits_;
+  const TimeSource& time_;
   std::atomic<bool> ends_at_transitions_ = false;
   mutable std::mutex mutex_;  // guards the members below
   mutable std::condition_variable left_;

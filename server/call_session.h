@@ -36,7 +36,8 @@ class CallSession : public Call {
       : serving_(serving),
         outbox_(
             wire, serving.outbox_bytes, [this](bool paused) { SetPaused(paused); },
-            [this](const Response& answer, Clock::time_point queued) { OnSent(answer, queued); }),
+            [this](const Response& answer, Clock::time_point queued) { OnSent(answer, queued); },
+            serving.calls.time()),
         method_(std::move(method)),
         caller_(std::move(caller)) {}
 
@@ -62,8 +63,9 @@ class CallSession : public Call {
       revoked_since_.reset();
       return;
     }
-    if (!revoked_since_) revoked_since_ = Clock::now();
-    if (!outbox_.open() || Clock::now() - *revoked_since_ < kRevoking) return;
+    const Clock::time_point now = serving_.calls.time().Now();
+    if (!revoked_since_) revoked_since_ = now;
+    if (!outbox_.open() || now - *revoked_since_ < kRevoking) return;
     End(Unauthenticated(
         "its token has been revoked; with another one the dance goes on from the last "
         "continuation"));

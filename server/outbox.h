@@ -72,13 +72,15 @@ class Outbox {
   using Clock = std::chrono::steady_clock;
 
   /// `set_paused` and `on_sent` are called without the lock, one call at a time. `on_sent` gets
-  /// each sent answer and the time at which its first part was queued.
+  /// each sent answer and the time at which its first part was queued. `time` must outlive this.
   Outbox(Wire* wire, size_t max_bytes, std::function<void(bool)> set_paused,
-         std::function<void(const Response&, Clock::time_point)> on_sent = {})
+         std::function<void(const Response&, Clock::time_point)> on_sent = {},
+         const TimeSource& time = TimeSource::System())
       : wire_(wire),
         max_bytes_(max_bytes),
         set_paused_(std::move(set_paused)),
-        on_sent_(std::move(on_sent)) {}
+        on_sent_(std::move(on_sent)),
+        time_(time) {}
 
   /// Queues an answer. Does nothing unless open.
   void Send(Response message) {
@@ -112,7 +114,7 @@ class Outbox {
   /// soon as there is room for its answer, unless the call ends first.
   void RequestRead() {
     const std::lock_guard lock(mutex_);
-    read_at_ = Clock::now();
+    read_at_ = time_.Now();
     read_wanted_ = true;
     Advance();
   }
@@ -123,7 +125,7 @@ class Outbox {
     {
       const std::lock_guard lock(mutex_);
       writing_ = false;
-      written_at_ = Clock::now();
+      written_at_ = time_.Now();
       done = std::move(queue_.front());
       bytes_ -= done.bytes;
       queue_.pop_front();
@@ -196,7 +198,7 @@ class Outbox {
     if (writing_ || state_ == State::kFinished) return;
     if (!queue_.empty()) {
       writing_ = true;
-      written_at_ = Clock::now();
+      written_at_ = time_.Now();
       wire_->Write(&queue_.front().message);
     } else if (state_ == State::kClosing && holds_ == 0) {
       state_ = State::kFinished;
@@ -223,14 +225,15 @@ class Outbox {
   const size_t max_bytes_;
   const std::function<void(bool)> set_paused_;
   const std::function<void(const Response&, Clock::time_point)> on_sent_;
+  const TimeSource& time_;
 
   mutable std::mutex mutex_;  // guards the members below
   State state_ = State::kOpen;
   std::deque<Item> queue_;  // the front is being written if writing_
   size_t bytes_ = 0;        // the queue's size
   bool writing_ = false;
-  Clock::time_point written_at_ = Clock::now();  // the last answer, or when its writing began
-  Clock::time_point read_at_ = Clock::now();     // when the last message was handled
+  Clock::time_point written_at_ = time_.Now();  // the last answer, or when its writing began
+  Clock::time_point read_at_ = time_.Now();     // when the last message was handled
   bool read_wanted_ = false;
   int holds_ = 0;
   bool paused_ = false;

@@ -156,11 +156,12 @@ ServerConfig WithStreams(ServerConfig config,
 }  // namespace
 
 struct Server::Impl {
-  Impl(const ServerConfig& given, std::vector<std::unique_ptr<SampleQueue>> queues)
+  Impl(const ServerConfig& given, std::vector<std::unique_ptr<SampleQueue>> queues,
+       const TimeSource& time)
       : config(WithStreams(given, queues)),
         serving(std::move(queues), LimitsOf(config), SharesOf(config), config.tokens,
                 static_cast<size_t>(config.outbox_kib) << 10,
-                int64_t{config.max_file_music_mib} << 20, config.io_threads),
+                int64_t{config.max_file_music_mib} << 20, config.io_threads, time),
         service(serving),
         resets(kWaitingCalls * CallsOfConnection(config),
                [this](const std::string& peer) { handshakes.Began(peer); }),
@@ -293,8 +294,9 @@ struct Server::Impl {
   std::optional<MetricsEndpoint> metrics;
 };
 
-Server::Server(const ServerConfig& config, std::vector<Samplers> models)
-    : impl_(std::make_unique<Impl>(config, MakeQueues(std::move(models), QueueingOf(config)))) {}
+Server::Server(const ServerConfig& config, std::vector<Samplers> models, const TimeSource& time)
+    : impl_(std::make_unique<Impl>(config, MakeQueues(std::move(models), QueueingOf(config)),
+                                   time)) {}
 
 Server::~Server() { Drain(0); }
 

@@ -6,6 +6,7 @@
 
 #include "model/plan/sampler.h"
 #include "server/config.h"
+#include "server/time_source.h"
 
 namespace choreo {
 
@@ -19,8 +20,10 @@ class Server {
   /// Starts to listen before it returns. Uses only the settings for serving: listen, max_waiting,
   /// max_streams, io_threads, outbox_kib, max_file_music_mib, max_network_mib, TLS, tokens,
   /// reflection, metrics, and limits on clients. Throws Error(kInvalidArgument) for engines that do
-  /// not match, and Error(kUnavailable), naming the address, if it cannot listen.
-  Server(const ServerConfig& config, std::vector<Samplers> models);
+  /// not match, and Error(kUnavailable), naming the address, if it cannot listen. `time` is that of
+  /// the limits on clients, and must outlive the server.
+  Server(const ServerConfig& config, std::vector<Samplers> models,
+         const TimeSource& time = TimeSource::System());
   ~Server();  ///< Drain(0)
   Server(const Server&) = delete;
   Server& operator=(const Server&) = delete;

@@ -22,8 +22,8 @@ namespace choreo {
 struct Serving {
   Serving(std::vector<std::unique_ptr<SampleQueue>> queues, const CallLimits& limits,
           const FrameShares& shares, std::filesystem::path tokens_file, size_t outbox_limit,
-          int64_t file_music_bytes, int io_threads)
-      : calls(limits),
+          int64_t file_music_bytes, int io_threads, const TimeSource& time = TimeSource::System())
+      : calls(limits, time),
         frames(
             shares, [this](const std::string& party) { return calls.HasRival(party); }, &cost),
         tokens(std::move(tokens_file)),

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "server/refusal.h"
+#include "tests/support/advanced_clock.h"
 
 /// Who gets the places of a server, and when those who got none should come again.
 namespace choreo::call_registry_test {
@@ -41,7 +42,9 @@ class CallRegistryTest : public testing::Test {
     calls.erase(calls.begin());
   }
 
-  CallRegistry registry{{.calls = kCalls, .calls_of_peer = kOfPeer, .calls_of_lone_peer = kCalls}};
+  AdvancedClock clock;
+  CallRegistry registry{{.calls = kCalls, .calls_of_peer = kOfPeer, .calls_of_lone_peer = kCalls},
+                        clock};
   std::vector<std::shared_ptr<SilentCall>> calls;
 };
 
@@ -74,6 +77,16 @@ TEST_F(CallRegistryTest, WhoWasRefusedFindsThePlaceThatGetsFree) {
   LeaveOne();
   EXPECT_TRUE(Come("alice"));
   EXPECT_FALSE(Come("alice"));
+}
+
+TEST_F(CallRegistryTest, AFormerCallersPlaceIsKeptForAMinute) {
+  EXPECT_TRUE(Come("bob"));
+  LeaveOne();
+  for (int i = 0; i < kOfPeer; ++i) EXPECT_TRUE(Come("alice"));
+  clock.Advance(std::chrono::seconds(59));
+  EXPECT_EQ(RefusalOf("alice"), Refusal::kStreamsOfPeer);
+  clock.Advance(std::chrono::seconds(2));
+  EXPECT_TRUE(Come("alice"));
 }
 
 TEST_F(CallRegistryTest, UtilisationIsTheBusiestCallers) {

@@ -2,12 +2,16 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <fstream>
 #include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "tests/support/advanced_clock.h"
 #include "tests/support/fake_sampler.h"
+#include "tests/support/temporary_folder.h"
 
 namespace choreo::call_session_test {
 
@@ -51,6 +55,38 @@ class CallSessionTest : public testing::Test {
   Session session{serving, &wire, "StreamDance", Caller{}};
   std::shared_ptr<PausedOrNot> dance = std::make_shared<PausedOrNot>();
 };
+
+// A file that is being rewritten lacks some tokens for a moment, or cannot be read.
+TEST_F(CallSessionTest, ARevokedTokenEndsTheCallAfterTwoSeconds) {
+  const std::string alice =
+      "ca978112ca1bbdcafac231b39a23dc4da786eff8147c4e72b9807785afee48bb alice\n";
+  const std::string bob = "3e23e8160039594a33894f6564e1b1348bbd7a0088d42c4acb73eeaed59c009d bob\n";
+  const TemporaryFolder folder;
+  const std::filesystem::path file = folder / "tokens";
+  const auto write = [&](const std::string& lines) { std::ofstream(file) << lines; };
+  write(alice + bob);
+  AdvancedClock clock;
+  Serving reloading{OneModel(), CallLimits{}, FrameShares{}, file, kOutboxBytes, 0, 1, clock};
+  Session hers{reloading, &wire, "StreamDance", Caller{}};
+  ASSERT_TRUE(hers.Authenticate("Bearer a"));
+  const auto dances_after = [&](std::chrono::seconds time) {
+    clock.Advance(time);
+    reloading.tokens.Refresh();
+    hers.EndIfRevoked();
+    return hers.outbox().open();
+  };
+  std::filesystem::remove(file);
+  EXPECT_TRUE(dances_after(std::chrono::seconds(0)));
+  EXPECT_TRUE(dances_after(std::chrono::minutes(1))) << "nobody knows what it says";
+  write(bob);
+  EXPECT_TRUE(dances_after(std::chrono::seconds(0)));
+  EXPECT_TRUE(dances_after(std::chrono::seconds(1)));
+  write(alice + bob);
+  EXPECT_TRUE(dances_after(std::chrono::seconds(5))) << "it came back";
+  write(bob);
+  EXPECT_TRUE(dances_after(std::chrono::seconds(0)));
+  EXPECT_FALSE(dances_after(std::chrono::seconds(2)));
+}
 
 TEST_F(CallSessionTest, UnreadMessagesPauseTheLaterDance) {
   SendMuch();

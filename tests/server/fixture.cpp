@@ -198,7 +198,7 @@ void ServerTest::Start(int workers, std::function<void(ServerConfig&)> change,
     for (int i = 0; i < workers; ++i)
       samplers.push_back(std::make_unique<ProbedSampler>(name, probe));
   }
-  Connect(std::make_unique<Server>(config, std::move(models)));
+  Connect(std::make_unique<Server>(config, std::move(models), clock));
 }
 
 void ServerTest::StartWith(std::unique_ptr<Sampler> sampler) {
@@ -206,7 +206,7 @@ void ServerTest::StartWith(std::unique_ptr<Sampler> sampler) {
   config.listen = "127.0.0.1:0";
   std::vector<Server::Samplers> models(1);
   models[0].push_back(std::move(sampler));
-  Connect(std::make_unique<Server>(config, std::move(models)));
+  Connect(std::make_unique<Server>(config, std::move(models), clock));
 }
 
 void ServerTest::Connect(std::unique_ptr<Server> started) {

@@ -16,6 +16,7 @@
 #include "choreo/v1/choreography.grpc.pb.h"
 #include "google/rpc/error_details.pb.h"
 #include "server/server.h"
+#include "tests/support/advanced_clock.h"
 #include "tests/support/fake_sampler.h"
 
 namespace choreo {
@@ -142,6 +143,7 @@ class ServerTest : public ::testing::Test {
   void ExpectIdle();
 
   std::shared_ptr<EngineProbe> probe = std::make_shared<EngineProbe>();
+  AdvancedClock clock;  // of the server's limits on clients
   std::unique_ptr<Server> server;
   std::shared_ptr<grpc::Channel> channel;
 

@@ -7,7 +7,6 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "tests/server/fixture.h"
@@ -76,22 +75,6 @@ TEST_F(RevokedTest, ItEndsAndGoesOnWithAnotherToken) {
   const auto at = static_cast<std::ptrdiff_t>(3 * rest.first_frame);
   EXPECT_EQ(std::vector(wanted.root_positions.begin() + at, wanted.root_positions.end()),
             rest.root_positions);
-}
-
-// A file is empty for a moment while it is written, and an unreadable one may come back.
-TEST_F(RevokedTest, AFileThatIsAwayEndsNoDance) {
-  const auto client = Begin("a");
-  std::filesystem::rename(folder_ / "tokens", folder_ / "away");
-  ExpectEventually(
-      [this] {
-        DanceClient other(stub(), std::nullopt, {{"authorization", "Bearer b"}});
-        return other.Finish().status.error_code() == grpc::StatusCode::UNAUTHENTICATED;
-      },
-      "nobody is admitted");
-  std::this_thread::sleep_for(std::chrono::seconds(3));
-  std::filesystem::rename(folder_ / "away", folder_ / "tokens");
-  client->SendGenerateUntil(90);
-  EXPECT_TRUE(client->Finish().status.ok());
 }
 
 }  // namespace choreo::revoked_test
