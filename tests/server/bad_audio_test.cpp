@@ -4,88 +4,77 @@
 
 namespace choreo::bad_audio_test {
 
+auto Pieces(const Requests& pieces) {
+  return [pieces](const KeyMessage&) {
+    Requests requests = {MusicConfigRequest()};
+    requests.insert(requests.end(), pieces.begin(), pieces.end());
+    return requests;
+  };
+}
+
+// 100 samples, changed.
+auto PieceWith(const std::function<void(std::string&)>& change) {
+  v1::StreamDanceRequest piece = AudioRequest(100, 0);
+  change(*piece.mutable_audio()->mutable_data());
+  return Pieces({piece});
+}
+
 INSTANTIATE_TEST_SUITE_P(
     Audio, BadStreamTest,
-    testing::Values(
-        BadStreamCase{
-            "Gap",
-            [](const KeyMessage&) {
-              return Requests{MusicConfigRequest(), AudioRequest(100, 0), AudioRequest(100, 101)};
-            },
-            grpc::StatusCode::OUT_OF_RANGE,
-            "audio.first_sample",
-            {"101", "100"}},
-        BadStreamCase{
-            "Overlap",
-            [](const KeyMessage&) {
-              return Requests{MusicConfigRequest(), AudioRequest(100, 0), AudioRequest(100, 99)};
-            },
-            grpc::StatusCode::OUT_OF_RANGE,
-            "audio.first_sample",
-            {"99", "100"}},
-        BadStreamCase{"LateStart",
-                      [](const KeyMessage&) {
-                        v1::StreamDanceRequest config = MusicConfigRequest();
-                        config.mutable_config()->mutable_audio_format()->set_first_sample(5000);
-                        return Requests{config};
-                      },
-                      grpc::StatusCode::OUT_OF_RANGE,
-                      "config.audio_format.first_sample",
-                      {"5000", "0"}},
-        BadStreamCase{"NaN",
-                      [](const KeyMessage&) {
-                        v1::StreamDanceRequest audio = AudioRequest(100, 0);
-                        const float nan = std::numeric_limits<float>::quiet_NaN();
-                        audio.mutable_audio()->mutable_data()->replace(
-                            4 * 42, 4, reinterpret_cast<const char*>(&nan), 4);
-                        return Requests{MusicConfigRequest(), audio};
-                      },
-                      kInvalidStatus,
-                      "audio.data",
-                      {"nan", "42"}},
-        BadStreamCase{"HalfASample",
-                      [](const KeyMessage&) {
-                        v1::StreamDanceRequest audio = AudioRequest(100, 0);
-                        audio.mutable_audio()->mutable_data()->pop_back();
-                        return Requests{MusicConfigRequest(), audio};
-                      },
-                      kInvalidStatus,
-                      "audio.data",
-                      {"399", "4 bytes"}},
-        BadStreamCase{"WithoutFormat",
-                      [](const KeyMessage&) {
-                        return Requests{ConfigRequest(), AudioRequest(100, 0)};
-                      },
-                      kInvalidStatus,
-                      "audio",
-                      {"config.audio_format"}},
-        BadStreamCase{"None",
-                      [](const KeyMessage&) { return Requests{MusicConfigRequest()}; },
-                      kInvalidStatus,
-                      "audio",
-                      {"without a sample"}},
-        BadStreamCase{
-            "EmptyPieces",
-            [](const KeyMessage&) {
-              return Requests{MusicConfigRequest(), AudioRequest(0, 0), AudioRequest(0, 0)};
-            },
-            kInvalidStatus,
-            "audio",
-            {"without a sample"}},
-        BadStreamCase{"TooLong",
-                      [](const KeyMessage&) {
-                        v1::StreamDanceRequest config = MusicConfigRequest();
-                        config.mutable_config()->mutable_audio_format()->set_sample_rate(8000);
-                        Requests requests = {config};
-                        // 600 s and a second more, in pieces of a minute.
-                        for (int64_t at = 0; at <= 600; at += 60) {
-                          requests.push_back(AudioRequest(8000 * (at < 600 ? 60 : 1), 8000 * at));
-                        }
-                        return requests;
-                      },
-                      kInvalidStatus,
-                      "audio.data",
-                      {"600 s"}}),
+    testing::ValuesIn(std::vector<BadStreamCase>{
+        {"Gap",
+         Pieces({AudioRequest(100, 0), AudioRequest(100, 101)}),
+         "audio.first_sample",
+         {"101", "100"},
+         grpc::StatusCode::OUT_OF_RANGE},
+        {"Overlap",
+         Pieces({AudioRequest(100, 0), AudioRequest(100, 99)}),
+         "audio.first_sample",
+         {"99", "100"},
+         grpc::StatusCode::OUT_OF_RANGE},
+        {"LateStart",
+         [](const KeyMessage&) {
+           v1::StreamDanceRequest config = MusicConfigRequest();
+           config.mutable_config()->mutable_audio_format()->set_first_sample(5000);
+           return Requests{config};
+         },
+         "config.audio_format.first_sample",
+         {"5000", "0"},
+         grpc::StatusCode::OUT_OF_RANGE},
+        {"NaN",
+         PieceWith([](std::string& data) {
+           const float nan = std::numeric_limits<float>::quiet_NaN();
+           data.replace(4 * 42, 4, reinterpret_cast<const char*>(&nan), 4);
+         }),
+         "audio.data",
+         {"nan", "42"}},
+        {"HalfASample",
+         PieceWith([](std::string& data) { data.pop_back(); }),
+         "audio.data",
+         {"399", "4 bytes"}},
+        {"WithoutFormat",
+         [](const KeyMessage&) {
+           return Requests{ConfigRequest(), AudioRequest(100, 0)};
+         },
+         "audio",
+         {"config.audio_format"}},
+        {"None", Pieces({}), "audio", {"without a sample"}},
+        {"EmptyPieces",
+         Pieces({AudioRequest(0, 0), AudioRequest(0, 0)}),
+         "audio",
+         {"without a sample"}},
+        {"TooLong",
+         [](const KeyMessage&) {
+           v1::StreamDanceRequest config = MusicConfigRequest();
+           config.mutable_config()->mutable_audio_format()->set_sample_rate(8000);
+           Requests requests = {config};
+           // 600 s and a second more, in pieces of a minute.
+           for (int64_t at = 0; at <= 600; at += 60)
+             requests.push_back(AudioRequest(8000 * (at < 600 ? 60 : 1), 8000 * at));
+           return requests;
+         },
+         "audio.data",
+         {"600 s"}}}),
     NameOf);
 
 // Music as a file, in one piece.
@@ -112,25 +101,18 @@ struct Files : ServerTest {
 
 INSTANTIATE_TEST_SUITE_P(
     File, BadStreamTest,
-    testing::Values(
-        BadStreamCase{"None",
-                      [](const KeyMessage&) { return Requests{WithFile("")({}).front()}; },
-                      kInvalidStatus,
-                      "audio",
-                      {"0 bytes"}},
-        BadStreamCase{"Empty", WithFile(""), kInvalidStatus, "audio", {"0 bytes"}},
-        BadStreamCase{"WithoutSamples",
-                      WithFile(Files::WithoutSamples()),
-                      kInvalidStatus,
-                      "audio",
-                      {"0 samples"}},
-        BadStreamCase{"NotAudio",
-                      WithFile("<html>this is no music, but a page about it</html>"),
-                      kInvalidStatus,
-                      "audio",
-                      {"not", "WAV"}},
-        BadStreamCase{
-            "NaN", WithFile(Files::WithNaN()), kInvalidStatus, "audio.data", {"nan", "sample 77"}}),
+    testing::ValuesIn(std::vector<BadStreamCase>{
+        {"None",
+         [](const KeyMessage&) { return Requests{WithFile("")({}).front()}; },
+         "audio",
+         {"0 bytes"}},
+        {"Empty", WithFile(""), "audio", {"0 bytes"}},
+        {"WithoutSamples", WithFile(Files::WithoutSamples()), "audio", {"0 samples"}},
+        {"NotAudio",
+         WithFile("<html>this is no music, but a page about it</html>"),
+         "audio",
+         {"not", "WAV"}},
+        {"NaN", WithFile(Files::WithNaN()), "audio.data", {"nan", "sample 77"}}}),
     NameOf);
 
 class MessageLimitTest : public ServerTest {};

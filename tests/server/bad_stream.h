@@ -3,9 +3,10 @@
 #include <functional>
 #include <ostream>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include "tests/server/fixture.h"
+#include "tests/server/merge.h"
 
 /// Streams that are refused: their messages, and what the answer must name. The test itself is in
 /// bad_stream_test.cpp; its cases are in the files beside it, by theme.
@@ -35,42 +36,50 @@ inline v1::StreamDanceRequest AudioRequest(int samples, int64_t first_sample) {
   return request;
 }
 
+using KeyMessage = v1::StreamDanceRequest;
+
 struct BadStreamCase {
-  const char* name;
+  std::string name;
   /// Makes the requests; `key` is a good one, at frame 40.
-  std::function<Requests(v1::StreamDanceRequest key)> requests;
-  grpc::StatusCode code;
-  const char* field;
+  std::function<Requests(KeyMessage key)> requests;
+  std::string field;
   std::vector<std::string> says;
+  grpc::StatusCode code = grpc::StatusCode::INVALID_ARGUMENT;
 };
 
 inline void PrintTo(const BadStreamCase& bad, std::ostream* out) { *out << bad.name; }
 
 class BadStreamTest : public ServerTest, public testing::WithParamInterface<BadStreamCase> {};
 
-inline constexpr auto kInvalidStatus = grpc::StatusCode::INVALID_ARGUMENT;
-using KeyMessage = v1::StreamDanceRequest;
-
 /// For INSTANTIATE_TEST_SUITE_P: cases are known by their names.
 inline std::string NameOf(const testing::TestParamInfo<BadStreamCase>& info) {
   return info.param.name;
 }
 
-// One bad key after a good configuration.
-template <class Change>
-auto WithKey(Change change) {
-  return [change](KeyMessage key) -> Requests {
-    change(*key.mutable_keyframe());
-    return {ConfigRequest(), key};
+/// These messages; "key" stands for the good one.
+inline auto Sent(std::vector<std::string> texts) {
+  return [texts = std::move(texts)](const KeyMessage& key) {
+    Requests requests;
+    for (const std::string& text : texts) {
+      requests.push_back(key);
+      if (text == "key") continue;
+      requests.back().Clear();
+      Merge(text, &requests.back());
+    }
+    return requests;
   };
 }
-template <class Change>
-auto WithConfig(Change change) {
-  return [change](const KeyMessage& key) -> Requests {
+
+/// A configuration with this besides, then a good key.
+inline auto WithConfig(std::function<void(v1::DanceConfig&)> change) {
+  return [change = std::move(change)](const KeyMessage& key) -> Requests {
     v1::StreamDanceRequest config = ConfigRequest();
     change(*config.mutable_config());
     return {config, key};
   };
+}
+inline auto WithConfig(const std::string& text) {
+  return WithConfig([text](v1::DanceConfig& config) { Merge(text, &config); });
 }
 
 }  // namespace choreo

@@ -8,13 +8,6 @@
 
 namespace choreo::bad_stream_test {
 
-void FillContinuation(v1::Continuation* from) {
-  from->set_skeleton("smpl24");
-  from->set_fingerprint("fake-1");
-  from->mutable_root_positions()->Resize(3 * 10, 0.0F);
-  from->mutable_rotations()->Resize(3 * 10 * 24, 0.0F);
-}
-
 /// Whether such a message has a field there, or alternatives of this name.
 bool IsPath(const google::protobuf::Descriptor& type, const std::string& path) {
   const size_t end = path.find('.');
@@ -88,320 +81,176 @@ TEST_P(BadStreamTest, IsNamedAndTheServerContinues) {
   ExpectIdle();
 }
 
+const std::string kConfig = "config { seed: 1 }";
+
 INSTANTIATE_TEST_SUITE_P(
     Order, BadStreamTest,
-    testing::Values(BadStreamCase{"Nothing",
-                                  [](const KeyMessage&) { return Requests{}; },
-                                  kInvalidStatus,
-                                  "config",
-                                  {"missing"}},
-                    BadStreamCase{"NoConfig",
-                                  [](const KeyMessage& key) { return Requests{key}; },
-                                  kInvalidStatus,
-                                  "config",
-                                  {"missing", "first"}},
-                    BadStreamCase{"TwoConfigs",
-                                  [](const KeyMessage&) {
-                                    return Requests{ConfigRequest(), ConfigRequest()};
-                                  },
-                                  kInvalidStatus,
-                                  "config",
-                                  {"once"}},
-                    BadStreamCase{"EmptyMessage",
-                                  [](const KeyMessage&) {
-                                    return Requests{ConfigRequest(), v1::StreamDanceRequest()};
-                                  },
-                                  kInvalidStatus,
-                                  "request",
-                                  {"empty"}},
-                    BadStreamCase{"HalfCloseAfterConfig",
-                                  [](const KeyMessage&) { return Requests{ConfigRequest()}; },
-                                  kInvalidStatus,
-                                  "keyframes_complete",
-                                  {"no end"}},
-                    BadStreamCase{"KeysAfterComplete",
-                                  [](const KeyMessage& key) {
-                                    v1::StreamDanceRequest complete;
-                                    complete.mutable_keyframes_complete();
-                                    v1::StreamDanceRequest config = MusicConfigRequest();
-                                    return Requests{config, key, complete, key};
-                                  },
-                                  kInvalidStatus,
-                                  "keyframes[1]",
-                                  {"keyframes_complete"}},
-                    BadStreamCase{"NoBeats",
-                                  [](const KeyMessage&) {
-                                    v1::StreamDanceRequest beats;
-                                    beats.mutable_music_beats();
-                                    return Requests{ConfigRequest(), beats};
-                                  },
-                                  kInvalidStatus,
-                                  "music_beats[0].times",
-                                  {"empty"}},
-                    BadStreamCase{"BeatsBackwards",
-                                  [](const KeyMessage&) {
-                                    v1::StreamDanceRequest beats, back;
-                                    beats.mutable_music_beats()->add_times(1);
-                                    back.mutable_music_beats()->add_times(3);
-                                    back.mutable_music_beats()->add_times(2.5);
-                                    return Requests{ConfigRequest(), beats, back};
-                                  },
-                                  kInvalidStatus,
-                                  "music_beats[1].times[1]",
-                                  {"2.5 s", "3 s"}},
-                    BadStreamCase{"NoPassages",
-                                  [](const KeyMessage&) {
-                                    v1::StreamDanceRequest passages;
-                                    passages.mutable_music_passages();
-                                    return Requests{ConfigRequest(), passages};
-                                  },
-                                  kInvalidStatus,
-                                  "music_passages[0].passages",
-                                  {"empty"}},
-                    BadStreamCase{"PassageLikeLater",
-                                  [](const KeyMessage&) {
-                                    v1::StreamDanceRequest passages;
-                                    auto* passage =
-                                        passages.mutable_music_passages()->add_passages();
-                                    passage->set_from(3);
-                                    passage->set_to(5);
-                                    passage->set_like(4);
-                                    return Requests{ConfigRequest(), passages};
-                                  },
-                                  kInvalidStatus,
-                                  "music_passages[0].passages[0].like",
-                                  {"4 s", "[0, 1]"}},
-                    BadStreamCase{"GenerateUntilBackwards",
-                                  [](const KeyMessage&) {
-                                    v1::StreamDanceRequest until;
-                                    until.mutable_generate_until()->set_frame(50);
-                                    v1::StreamDanceRequest back;
-                                    back.mutable_generate_until()->set_frame(40);
-                                    return Requests{ConfigRequest(), until, back};
-                                  },
-                                  kInvalidStatus,
-                                  "generate_until.frame",
-                                  {"40", "50"}},
-                    BadStreamCase{"RemovedIdThatNeverWas",
-                                  [](const KeyMessage& key) {
-                                    v1::StreamDanceRequest remove;
-                                    remove.mutable_remove_keyframe()->set_id("ghost");
-                                    return Requests{ConfigRequest(), key, remove};
-                                  },
-                                  grpc::StatusCode::NOT_FOUND,
-                                  "remove_keyframes[0].id",
-                                  {"ghost"}},
-                    BadStreamCase{"RemovedTwice",
-                                  [](const KeyMessage& key) {
-                                    v1::StreamDanceRequest until, remove;
-                                    until.mutable_generate_until()->set_frame(10);
-                                    remove.mutable_remove_keyframe()->set_id("k");
-                                    return Requests{ConfigRequest(), until, key, remove, remove};
-                                  },
-                                  grpc::StatusCode::NOT_FOUND,
-                                  "remove_keyframes[1].id",
-                                  {"\"k\""}}),
+    testing::ValuesIn(std::vector<BadStreamCase>{
+        {"Nothing", Sent({}), "config", {"missing"}},
+        {"NoConfig", Sent({"key"}), "config", {"missing", "first"}},
+        {"TwoConfigs", Sent({kConfig, kConfig}), "config", {"once"}},
+        {"EmptyMessage", Sent({kConfig, ""}), "request", {"empty"}},
+        {"HalfCloseAfterConfig", Sent({kConfig}), "keyframes_complete", {"no end"}},
+        {"KeysAfterComplete",
+         [](const KeyMessage& key) {
+           v1::StreamDanceRequest complete;
+           complete.mutable_keyframes_complete();
+           return Requests{MusicConfigRequest(), key, complete, key};
+         },
+         "keyframes[1]",
+         {"keyframes_complete"}},
+        {"NoBeats", Sent({kConfig, "music_beats {}"}), "music_beats[0].times", {"empty"}},
+        {"BeatsBackwards",
+         Sent({kConfig, "music_beats { times: 1 }", "music_beats { times: [3, 2.5] }"}),
+         "music_beats[1].times[1]",
+         {"2.5 s", "3 s"}},
+        {"NoPassages",
+         Sent({kConfig, "music_passages {}"}),
+         "music_passages[0].passages",
+         {"empty"}},
+        {"PassageLikeLater",
+         Sent({kConfig, "music_passages { passages { from: 3 to: 5 like: 4 } }"}),
+         "music_passages[0].passages[0].like",
+         {"4 s", "[0, 1]"}},
+        {"GenerateUntilBackwards",
+         Sent({kConfig, "generate_until { frame: 50 }", "generate_until { frame: 40 }"}),
+         "generate_until.frame",
+         {"40", "50"}},
+        {"RemovedIdThatNeverWas",
+         Sent({kConfig, "key", "remove_keyframe { id: 'ghost' }"}),
+         "remove_keyframes[0].id",
+         {"ghost"},
+         grpc::StatusCode::NOT_FOUND},
+        {"RemovedTwice",
+         Sent({kConfig, "generate_until { frame: 10 }", "key", "remove_keyframe { id: 'k' }",
+               "remove_keyframe { id: 'k' }"}),
+         "remove_keyframes[1].id",
+         {"\"k\""},
+         grpc::StatusCode::NOT_FOUND}}),
     NameOf);
+
+auto WithContinuation(const std::function<void(v1::Continuation&)>& change) {
+  return WithConfig([change](v1::DanceConfig& config) {
+    v1::Continuation& from = *config.mutable_continuation();
+    from.set_skeleton("smpl24");
+    from.set_fingerprint("fake-1");
+    from.mutable_root_positions()->Resize(3 * 10, 0.0F);
+    from.mutable_rotations()->Resize(3 * 10 * 24, 0.0F);
+    change(from);
+  });
+}
 
 INSTANTIATE_TEST_SUITE_P(
     Config, BadStreamTest,
-    testing::Values(
-        BadStreamCase{"UnknownModel",
-                      WithConfig([](auto& c) { c.set_model("paper"); }),
-                      grpc::StatusCode::NOT_FOUND,
-                      "config.model",
-                      {"paper", "fake"}},
+    testing::ValuesIn(std::vector<BadStreamCase>{
+        {"UnknownModel",
+         WithConfig("model: 'paper'"),
+         "config.model",
+         {"paper", "fake"},
+         grpc::StatusCode::NOT_FOUND},
         // However long or odd a client's words are, the answer is one line that fits its trailers.
-        BadStreamCase{"EndlessModel",
-                      WithConfig([](auto& c) { c.set_model(std::string(100'000, 'x')); }),
-                      grpc::StatusCode::NOT_FOUND,
-                      "config.model",
-                      {"xxx...xxx", "fake"}},
-        BadStreamCase{"ModelOfControlCharacters",
-                      WithConfig([](auto& c) { c.set_model(std::string("m\n\0\x7f\u00e9", 6)); }),
-                      grpc::StatusCode::NOT_FOUND,
-                      "config.model",
-                      {"m\\x0a\\x00\\x7f\u00e9", "fake"}},
-        BadStreamCase{"FrameRate",
-                      WithConfig([](auto& c) { c.set_frame_rate(121); }),
-                      kInvalidStatus,
-                      "config.frame_rate",
-                      {"121", "120"}},
-        BadStreamCase{"FrameRateNaN",
-                      WithConfig([](auto& c) { c.set_frame_rate(std::nan("")); }),
-                      kInvalidStatus,
-                      "config.frame_rate",
-                      {"nan", "120"}},
-        BadStreamCase{"Temperature",
-                      WithConfig([](auto& c) { c.set_temperature(-0.5); }),
-                      kInvalidStatus,
-                      "config.temperature",
-                      {"-0.5", "[0, 2]"}},
-        BadStreamCase{"MusicDynamics",
-                      WithConfig([](auto& c) { c.set_music_dynamics(1.5); }),
-                      kInvalidStatus,
-                      "config.music_dynamics",
-                      {"1.5", "[0, 1]"}},
-        BadStreamCase{"Style",
-                      WithConfig([](auto& c) { c.set_style("foxtrot"); }),
-                      kInvalidStatus,
-                      "config.style",
-                      {"foxtrot", "calm, wild"}},
-        BadStreamCase{"EndlessStyle",
-                      WithConfig([](auto& c) { c.set_style(std::string(257, 'x')); }),
-                      kInvalidStatus,
-                      "config.style",
-                      {"257 bytes", "at most 256"}},
-        BadStreamCase{"Frames",
-                      WithConfig([](auto& c) { c.set_frames(0); }),
-                      kInvalidStatus,
-                      "config.frames",
-                      {"0", "108000"}},
-        BadStreamCase{
-            "Encoding",
-            WithConfig([](auto& c) { c.set_encoding(static_cast<v1::RotationEncoding>(17)); }),
-            kInvalidStatus,
-            "config.encoding",
-            {"17"}},
-        BadStreamCase{"AudioEncoding",
-                      WithConfig([](auto& c) { c.mutable_audio_format(); }),
-                      kInvalidStatus,
-                      "config.audio_format.encoding",
-                      {"PCM_F32LE"}},
-        BadStreamCase{"SampleRate",
-                      WithConfig([](auto& c) {
-                        c.mutable_audio_format()->set_encoding(v1::AUDIO_ENCODING_PCM_S16LE);
-                        c.mutable_audio_format()->set_sample_rate(7999);
-                        c.mutable_audio_format()->set_channels(1);
-                      }),
-                      kInvalidStatus,
-                      "config.audio_format.sample_rate",
-                      {"7999", "8000"}},
-        BadStreamCase{"Channels",
-                      WithConfig([](auto& c) {
-                        c.mutable_audio_format()->set_encoding(v1::AUDIO_ENCODING_PCM_S16LE);
-                        c.mutable_audio_format()->set_sample_rate(44100);
-                        c.mutable_audio_format()->set_channels(9);
-                      }),
-                      kInvalidStatus,
-                      "config.audio_format.channels",
-                      {"9", "8"}},
-        BadStreamCase{"GenerateUntil",
-                      WithConfig([](auto& c) { c.set_generate_until(-1); }),
-                      kInvalidStatus,
-                      "config.generate_until",
-                      {"-1", "108000"}},
-        BadStreamCase{"Beats",
-                      WithConfig([](auto& c) {
-                        c.add_music_beats(1);
-                        c.add_music_beats(1);
-                      }),
-                      kInvalidStatus,
-                      "config.music_beats[1]",
-                      {"1 s"}},
-        BadStreamCase{"Downbeats",
-                      WithConfig([](auto& c) {
-                        c.add_music_beats(1);
-                        c.add_music_beats(1.5);
-                        c.add_music_downbeats(1.5);
-                        c.add_music_downbeats(2);
-                      }),
-                      kInvalidStatus,
-                      "config.music_downbeats[1]",
-                      {"2 s", "none of the beats"}},
-        BadStreamCase{"BeatsConfidence",
-                      [](const KeyMessage&) {
-                        v1::StreamDanceRequest beats;
-                        beats.mutable_music_beats()->add_times(1);
-                        beats.mutable_music_beats()->set_confidence(1.5);
-                        return Requests{ConfigRequest(), beats};
-                      },
-                      kInvalidStatus,
-                      "music_beats[0].confidence",
-                      {"1.5", "[0, 1]"}},
-        BadStreamCase{"Passages",
-                      WithConfig([](auto& c) {
-                        c.add_music_passages()->set_from(3);
-                        c.mutable_music_passages(0)->set_to(601);
-                      }),
-                      kInvalidStatus,
-                      "config.music_passages[0].to",
-                      {"601 s", "600"}},
-        BadStreamCase{"Energies",
-                      WithConfig([](auto& c) { c.add_music_energies(2.5F); }),
-                      kInvalidStatus,
-                      "config.music_energies[0]",
-                      {"2.5", "[-2, 2]"}},
-        BadStreamCase{"Variation",
-                      WithConfig([](auto& c) { c.set_variation(1.5); }),
-                      kInvalidStatus,
-                      "config.variation",
-                      {"1.5", "[0, 1]"}},
-        BadStreamCase{"HistoryOfAnotherSkeleton",
-                      WithConfig([](auto& c) {
-                        v1::Pose* pose = c.mutable_history()->add_poses();
-                        pose->mutable_root_position()->set_y(1);
-                        pose->mutable_rotations()->Resize(3 * 23, 0.0F);
-                      }),
-                      kInvalidStatus,
-                      "config.history.poses[0].rotations",
-                      {"23 joints", "24"}},
-        BadStreamCase{"ContinuationOfAnotherSkeleton",
-                      WithConfig([](auto& c) {
-                        v1::Continuation* from = c.mutable_continuation();
-                        from->set_skeleton("tang23");
-                        from->set_fingerprint("fake-1");
-                        from->mutable_root_positions()->Resize(3 * 10, 0.0F);
-                        from->mutable_rotations()->Resize(3 * 10 * 23, 0.0F);
-                      }),
-                      grpc::StatusCode::FAILED_PRECONDITION,
-                      "config.continuation.skeleton",
-                      {"tang23", "smpl24"}},
-        BadStreamCase{"ContinuationOf23Joints",
-                      WithConfig([](auto& c) {
-                        v1::Continuation* from = c.mutable_continuation();
-                        FillContinuation(from);
-                        from->mutable_rotations()->Truncate(3 * 10 * 23);
-                      }),
-                      kInvalidStatus,
-                      "config.continuation.rotations",
-                      {"690", "720"}},
-        BadStreamCase{"ShortContinuation",
-                      WithConfig([](auto& c) {
-                        c.mutable_continuation()->set_skeleton("smpl24");
-                        c.mutable_continuation()->add_root_positions(1);
-                      }),
-                      kInvalidStatus,
-                      "config.continuation.root_positions",
-                      {"1 ", "30"}},
-        BadStreamCase{"ContinuationWithHalfAStage",
-                      WithConfig([](auto& c) {
-                        v1::Continuation* from = c.mutable_continuation();
-                        FillContinuation(from);
-                        from->add_stage(1);
-                      }),
-                      kInvalidStatus,
-                      "config.continuation.stage",
-                      {"1 ", "2"}},
-        BadStreamCase{"ContinuationOnNoStage",
-                      WithConfig([](auto& c) {
-                        v1::Continuation* from = c.mutable_continuation();
-                        FillContinuation(from);
-                        from->add_stage(1);
-                        from->add_stage(NAN);
-                      }),
-                      kInvalidStatus,
-                      "config.continuation.stage",
-                      {"nan", "10000"}},
-        BadStreamCase{"ContinuationFacingNowhere",
-                      WithConfig([](auto& c) {
-                        v1::Continuation* from = c.mutable_continuation();
-                        FillContinuation(from);
-                        from->set_front(7);
-                      }),
-                      kInvalidStatus,
-                      "config.continuation.front",
-                      {"7 radians", "a turn"}}),
+        {"EndlessModel",
+         WithConfig("model: '" + std::string(100'000, 'x') + "'"),
+         "config.model",
+         {"xxx...xxx", "fake"},
+         grpc::StatusCode::NOT_FOUND},
+        {"ModelOfControlCharacters",
+         WithConfig([](auto& c) { c.set_model(std::string("m\n\0\x7f\u00e9", 6)); }),
+         "config.model",
+         {"m\\x0a\\x00\\x7f\u00e9", "fake"},
+         grpc::StatusCode::NOT_FOUND},
+        {"FrameRate", WithConfig("frame_rate: 121"), "config.frame_rate", {"121", "120"}},
+        {"FrameRateNaN", WithConfig("frame_rate: nan"), "config.frame_rate", {"nan", "120"}},
+        {"Temperature", WithConfig("temperature: -0.5"), "config.temperature", {"-0.5", "[0, 2]"}},
+        {"MusicDynamics",
+         WithConfig("music_dynamics: 1.5"),
+         "config.music_dynamics",
+         {"1.5", "[0, 1]"}},
+        {"Style", WithConfig("style: 'foxtrot'"), "config.style", {"foxtrot", "calm, wild"}},
+        {"EndlessStyle",
+         WithConfig("style: '" + std::string(257, 'x') + "'"),
+         "config.style",
+         {"257 bytes", "at most 256"}},
+        {"Frames", WithConfig("frames: 0"), "config.frames", {"0", "108000"}},
+        {"Encoding", WithConfig("encoding: 17"), "config.encoding", {"17"}},
+        {"AudioEncoding",
+         WithConfig("audio_format {}"),
+         "config.audio_format.encoding",
+         {"PCM_F32LE"}},
+        {"SampleRate",
+         WithConfig("audio_format { encoding: AUDIO_ENCODING_PCM_S16LE sample_rate: 7999 "
+                    "channels: 1 }"),
+         "config.audio_format.sample_rate",
+         {"7999", "8000"}},
+        {"Channels",
+         WithConfig("audio_format { encoding: AUDIO_ENCODING_PCM_S16LE sample_rate: 44100 "
+                    "channels: 9 }"),
+         "config.audio_format.channels",
+         {"9", "8"}},
+        {"GenerateUntil",
+         WithConfig("generate_until: -1"),
+         "config.generate_until",
+         {"-1", "108000"}},
+        {"Beats", WithConfig("music_beats: [1, 1]"), "config.music_beats[1]", {"1 s"}},
+        {"Downbeats",
+         WithConfig("music_beats: [1, 1.5] music_downbeats: [1.5, 2]"),
+         "config.music_downbeats[1]",
+         {"2 s", "none of the beats"}},
+        {"BeatsConfidence",
+         Sent({kConfig, "music_beats { times: 1 confidence: 1.5 }"}),
+         "music_beats[0].confidence",
+         {"1.5", "[0, 1]"}},
+        {"Passages",
+         WithConfig("music_passages { from: 3 to: 601 }"),
+         "config.music_passages[0].to",
+         {"601 s", "600"}},
+        {"Energies",
+         WithConfig("music_energies: 2.5"),
+         "config.music_energies[0]",
+         {"2.5", "[-2, 2]"}},
+        {"Variation", WithConfig("variation: 1.5"), "config.variation", {"1.5", "[0, 1]"}},
+        {"HistoryOfAnotherSkeleton",
+         WithConfig(
+             [](auto& c) {
+               v1::Pose* pose = c.mutable_history()->add_poses();
+               pose->mutable_root_position()->set_y(1);
+               pose->mutable_rotations()->Resize(3 * 23, 0.0F);
+             }),
+         "config.history.poses[0].rotations",
+         {"23 joints", "24"}},
+        {"ContinuationOfAnotherSkeleton",
+         WithContinuation(
+             [](auto& from) {
+               from.set_skeleton("tang23");
+               from.mutable_rotations()->Truncate(3 * 10 * 23);
+             }),
+         "config.continuation.skeleton",
+         {"tang23", "smpl24"},
+         grpc::StatusCode::FAILED_PRECONDITION},
+        {"ContinuationOf23Joints",
+         WithContinuation([](auto& from) { from.mutable_rotations()->Truncate(3 * 10 * 23); }),
+         "config.continuation.rotations",
+         {"690", "720"}},
+        {"ShortContinuation",
+         WithConfig("continuation { skeleton: 'smpl24' root_positions: 1 }"),
+         "config.continuation.root_positions",
+         {"1 ", "30"}},
+        {"ContinuationWithHalfAStage",
+         WithContinuation([](auto& from) { from.add_stage(1); }),
+         "config.continuation.stage",
+         {"1 ", "2"}},
+        {"ContinuationOnNoStage",
+         WithContinuation(
+             [](auto& from) {
+               from.add_stage(1);
+               from.add_stage(NAN);
+             }),
+         "config.continuation.stage",
+         {"nan", "10000"}},
+        {"ContinuationFacingNowhere",
+         WithContinuation([](auto& from) { from.set_front(7); }),
+         "config.continuation.front",
+         {"7 radians", "a turn"}}}),
     NameOf);
 
 }  // namespace choreo::bad_stream_test

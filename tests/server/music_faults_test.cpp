@@ -121,7 +121,7 @@ TEST_F(MusicFaultsTest, FramesBeyondTheMusicAreDancedWithAWarning) {
 TEST_F(MusicFaultsTest, FloatsThatAreScaledAsIntegersAreRefused) {
   Start();
   const Answer answer = Dance({MusicConfigRequest(), Floats(100, 8000)});
-  EXPECT_EQ(answer.status.error_code(), kInvalidStatus);
+  EXPECT_EQ(answer.status.error_code(), grpc::StatusCode::INVALID_ARGUMENT);
   EXPECT_NE(answer.status.error_message().find("sample 0 of channel 0 is 8000, full scale is -1 "
                                                "to 1, the limit 100"),
             std::string::npos)

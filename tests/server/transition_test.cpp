@@ -2,7 +2,7 @@
 #include <functional>
 #include <set>
 
-#include "tests/server/fixture.h"
+#include "tests/server/merge.h"
 
 namespace choreo::transition_test {
 
@@ -122,11 +122,10 @@ TEST_F(TransitionTest, StartsInTheMiddleOfADance) {
 }
 
 struct BadRequestCase {
-  const char* name;
-  void (*change)(v1::GenerateTransitionRequest&);
-  grpc::StatusCode code;
-  const char* field;
-  const char* says;
+  std::string name;
+  std::function<void(v1::GenerateTransitionRequest&)> change;
+  std::string field, says;
+  grpc::StatusCode code = grpc::StatusCode::INVALID_ARGUMENT;
 };
 
 class BadTransitionTest : public ServerTest, public testing::WithParamInterface<BadRequestCase> {};
@@ -150,97 +149,76 @@ TEST_P(BadTransitionTest, IsNamed) {
   ExpectIdle();
 }
 
-using R = v1::GenerateTransitionRequest;
-constexpr auto kInvalidStatus = grpc::StatusCode::INVALID_ARGUMENT;
+auto With(const std::string& text) {
+  return [text](v1::GenerateTransitionRequest& request) { Merge(text, &request); };
+}
+
+auto WithoutTarget(const std::string& text) {
+  return [text](v1::GenerateTransitionRequest& request) {
+    request.clear_target();
+    Merge(text, &request);
+  };
+}
+
+// So many poses after the target, the last of them changed.
+auto WithAfter(int count, const std::function<void(v1::Pose&)>& change = {}) {
+  return [=](v1::GenerateTransitionRequest& request) {
+    for (int i = 0; i < count; ++i) *request.add_after() = request.target();
+    if (change) change(*request.mutable_after(count - 1));
+  };
+}
+
 INSTANTIATE_TEST_SUITE_P(
     All, BadTransitionTest,
-    testing::Values(
-        BadRequestCase{"NoConfig", [](R& r) { r.clear_config(); }, kInvalidStatus, "config",
-                       "missing"},
-        BadRequestCase{"NoFrames", [](R& r) { r.clear_frames(); }, kInvalidStatus, "frames", "0"},
-        BadRequestCase{"TooManyFrames", [](R& r) { r.set_frames(1801); }, kInvalidStatus, "frames",
-                       "1800"},
-        BadRequestCase{"TooManyCandidates", [](R& r) { r.set_candidates(33); }, kInvalidStatus,
-                       "candidates", "32"},
-        BadRequestCase{"UnknownRanking", [](R& r) { r.set_rank_by(static_cast<v1::RankBy>(7)); },
-                       kInvalidStatus, "rank_by", "7 is no RankBy; 0 to 2 are"},
-        BadRequestCase{"UnknownModel", [](R& r) { r.mutable_config()->set_model("nope"); },
-                       grpc::StatusCode::NOT_FOUND, "config.model", "\"fake\""},
-        BadRequestCase{"GenerateUntil", [](R& r) { r.mutable_config()->set_generate_until(5); },
-                       kInvalidStatus, "config.generate_until", "StreamDance"},
-        BadRequestCase{"EmptyHistory", [](R& r) { r.mutable_config()->mutable_history(); },
-                       kInvalidStatus, "config.history.poses", "at least 1"},
-        BadRequestCase{
-            "HistoryWithoutRoot",
-            [](R& r) {
-              *r.mutable_config()->mutable_history()->add_poses() = r.target();
-              r.mutable_config()->mutable_history()->mutable_poses(0)->clear_root_position();
-            },
-            kInvalidStatus, "config.history.poses[0].root_position", "missing"},
-        BadRequestCase{"LongTargetId", [](R& r) { r.set_target_id(std::string(257, 'x')); },
-                       kInvalidStatus, "target_id", "257 bytes, not 1 to 256"},
-        BadRequestCase{"AfterWithoutTarget",
-                       [](R& r) {
-                         *r.add_after() = r.target();
-                         r.clear_target();
-                       },
-                       kInvalidStatus, "after", "target"},
-        BadRequestCase{"AfterOfAnotherSkeleton",
-                       [](R& r) {
-                         *r.add_after() = r.target();
-                         *r.add_after() = r.target();
-                         r.mutable_after(1)->mutable_rotations()->Truncate(69);
-                       },
-                       kInvalidStatus, "after[1].rotations", "23 joints"},
-        BadRequestCase{"AfterFarAway",
-                       [](R& r) {
-                         *r.add_after() = r.target();
-                         *r.add_after() = r.target();
-                         r.mutable_after(1)->mutable_root_position()->set_x(2e4);
-                       },
-                       kInvalidStatus, "after[1].root_position.x", "10000"},
-        BadRequestCase{"TooManyAfter",
-                       [](R& r) {
-                         for (int i = 0; i < 61; ++i) *r.add_after() = r.target();
-                       },
-                       kInvalidStatus, "after", "61 poses, more than 60"},
-        BadRequestCase{"AudioWithoutFormat", [](R& r) { r.mutable_audio()->set_data("abcd"); },
-                       kInvalidStatus, "audio", "config.audio_format"},
-        BadRequestCase{"FormatWithoutAudio",
-                       [](R& r) {
-                         auto* format = r.mutable_config()->mutable_audio_format();
-                         format->set_encoding(v1::AUDIO_ENCODING_PCM_S16LE);
-                         format->set_sample_rate(22050);
-                         format->set_channels(1);
-                       },
-                       kInvalidStatus, "audio", "missing"},
-        BadRequestCase{"MaskedToNothing",
-                       [](R& r) {
-                         r.mutable_target()->clear_root_position();
-                         r.mutable_target_mask();
-                       },
-                       kInvalidStatus, "target_mask", "nothing"},
-        BadRequestCase{"AnIdOfNoTarget",
-                       [](R& r) {
-                         r.clear_target();
-                         r.set_target_id("landing");
-                       },
-                       kInvalidStatus, "target_id", "no target"},
-        BadRequestCase{"HitTooHard", [](R& r) { r.set_target_hit(3.5); }, kInvalidStatus,
-                       "target_hit", "3.5 is not in [0, 3]"},
-        BadRequestCase{"AHitOfNoTarget",
-                       [](R& r) {
-                         r.clear_target();
-                         r.set_target_hit(1);
-                       },
-                       kInvalidStatus, "target_hit", "no target"},
-        BadRequestCase{"NotAFile",
-                       [](R& r) {
-                         r.mutable_config()->mutable_audio_format()->set_encoding(
-                             v1::AUDIO_ENCODING_FILE);
-                         r.mutable_audio()->set_data("this is no music");
-                       },
-                       kInvalidStatus, "audio", ""}),
-    [](const auto& suite) { return std::string(suite.param.name); });
+    testing::ValuesIn(std::vector<BadRequestCase>{
+        {"NoConfig", [](auto& r) { r.clear_config(); }, "config", "missing"},
+        {"NoFrames", [](auto& r) { r.clear_frames(); }, "frames", "0"},
+        {"TooManyFrames", With("frames: 1801"), "frames", "1800"},
+        {"TooManyCandidates", With("candidates: 33"), "candidates", "32"},
+        {"UnknownRanking", With("rank_by: 7"), "rank_by", "7 is no RankBy; 0 to 2 are"},
+        {"UnknownModel", With("config { model: 'nope' }"), "config.model", "\"fake\"",
+         grpc::StatusCode::NOT_FOUND},
+        {"GenerateUntil", With("config { generate_until: 5 }"), "config.generate_until",
+         "StreamDance"},
+        {"EmptyHistory", With("config { history {} }"), "config.history.poses", "at least 1"},
+        {"HistoryWithoutRoot",
+         [](auto& r) {
+           *r.mutable_config()->mutable_history()->add_poses() = r.target();
+           r.mutable_config()->mutable_history()->mutable_poses(0)->clear_root_position();
+         },
+         "config.history.poses[0].root_position", "missing"},
+        {"LongTargetId", With("target_id: '" + std::string(257, 'x') + "'"), "target_id",
+         "257 bytes, not 1 to 256"},
+        {"AfterWithoutTarget",
+         [](auto& r) {
+           *r.add_after() = r.target();
+           r.clear_target();
+         },
+         "after", "target"},
+        {"AfterOfAnotherSkeleton",
+         WithAfter(2, [](auto& pose) { pose.mutable_rotations()->Truncate(69); }),
+         "after[1].rotations", "23 joints"},
+        {"AfterFarAway", WithAfter(2, [](auto& pose) { pose.mutable_root_position()->set_x(2e4); }),
+         "after[1].root_position.x", "10000"},
+        {"TooManyAfter", WithAfter(61), "after", "61 poses, more than 60"},
+        {"AudioWithoutFormat", With("audio { data: 'abcd' }"), "audio", "config.audio_format"},
+        {"FormatWithoutAudio",
+         With("config { audio_format { encoding: AUDIO_ENCODING_PCM_S16LE sample_rate: 22050 "
+              "channels: 1 } }"),
+         "audio", "missing"},
+        {"MaskedToNothing",
+         [](auto& r) {
+           r.mutable_target()->clear_root_position();
+           r.mutable_target_mask();
+         },
+         "target_mask", "nothing"},
+        {"AnIdOfNoTarget", WithoutTarget("target_id: 'landing'"), "target_id", "no target"},
+        {"HitTooHard", With("target_hit: 3.5"), "target_hit", "3.5 is not in [0, 3]"},
+        {"AHitOfNoTarget", WithoutTarget("target_hit: 1"), "target_hit", "no target"},
+        {"NotAFile",
+         With("config { audio_format { encoding: AUDIO_ENCODING_FILE } } "
+              "audio { data: 'this is no music' }"),
+         "audio", ""}}),
+    [](const auto& suite) { return suite.param.name; });
 
 }  // namespace choreo::transition_test
