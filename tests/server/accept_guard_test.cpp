@@ -17,7 +17,7 @@ using std::chrono::seconds;
 
 class AcceptGuardTest : public testing::Test {
  protected:
-  // How many of so many connections at once are taken.
+  // How many of these simultaneous connections are accepted.
   int Takes(int count, const std::string& address = "ipv4:192.0.2.1") {
     int taken = 0;
     for (int i = 0; i < count; ++i) taken += guard_.TakesFrom(address, now_) ? 1 : 0;
@@ -59,7 +59,7 @@ TEST_F(AcceptGuardTest, HonestRatesAreNeverRefused) {
   }
 }
 
-// As other floods are: one such call more would cost memory, and the next connection brings it.
+// Like other floods: one more call would cost memory, and the next connection would bring it.
 TEST(ResetGuardTest, AFloodOfCallsIsCountedAndHeldOff) {
   ResetGuard guard(2);
   const std::string peer = "ipv4:192.0.2.1:7", other = "ipv4:192.0.2.2:7";

@@ -8,8 +8,8 @@
 #include "server/serving_cost.h"
 #include "tests/server/fixture.h"
 
-/// A real server with its defaults, and the kernels and checkpoint that are served: how many dances
-/// it takes.
+/// How many dances a server with default settings admits, with real kernels and the shipped
+/// checkpoint.
 namespace choreo::admission_test {
 
 class AdmissionTest : public ServerTest {
@@ -32,7 +32,7 @@ class AdmissionTest : public ServerTest {
   double seconds_a_frame = 0;
 };
 
-// Formerly 64 on every machine.
+// The number was once 64 on every machine.
 TEST_F(AdmissionTest, TakesAsManyDancesAsTheMachineCarries) {
   const double of_one = kModelFps * seconds_a_frame + ServingCost().LoadOf(kModelFps);
   const auto carried = static_cast<int>(ServerConfig{}.max_load / of_one);

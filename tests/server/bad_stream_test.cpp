@@ -8,7 +8,7 @@
 
 namespace choreo::bad_stream_test {
 
-/// Whether such a message has a field there, or alternatives of this name.
+/// Whether this message type has a field at `path`, or a oneof of this name.
 bool IsPath(const google::protobuf::Descriptor& type, const std::string& path) {
   const size_t end = path.find('.');
   const std::string part = path.substr(0, end);

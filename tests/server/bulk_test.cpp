@@ -7,15 +7,15 @@
 #include "model/samplers/samplers.h"
 #include "tests/server/fixture.h"
 
-/// A real server, real clients, and the kernels and checkpoint that are served: what long calls do
-/// to a dance that is listened to.
+/// How long calls affect a live dance, with a real server, real clients, real kernels and the
+/// shipped checkpoint.
 namespace choreo::bulk_test {
 
 constexpr int kBulkFrames = 1'800;
 constexpr int kCandidates = 32;
 constexpr int kDanceFrames = 24;  // two transitions, within SampleQueue::Options::bulk_yields
 
-/// The order of a sampler's jobs.
+/// The order in which a sampler runs its jobs.
 struct Log {
   enum class Did { kBulkSlice, kDanceSlice, kDanceEnds };
 
@@ -33,7 +33,7 @@ struct Log {
   std::vector<Did> all;
 };
 
-/// A checkpoint's sampler, watched.
+/// A checkpoint's sampler that records its slices.
 class LoggedSampler final : public Sampler {
  public:
   LoggedSampler(std::unique_ptr<Sampler> sampler, std::shared_ptr<Log> log)
@@ -104,7 +104,7 @@ class BulkTest : public ServerTest {
     request.set_candidates(kCandidates);
     return request;
   }
-  // All its messages are there before one message grants its frames: from its first slice on it
+  // All its messages arrive before one message grants its frames, so from its first slice on it
   // waits only for the worker.
   Answer Dance() {
     DanceClient client(stub());
@@ -133,7 +133,7 @@ TEST_F(BulkTest, DancesPreemptLongTransitionCalls) {
   EXPECT_FALSE(bulk.over());
   EXPECT_LE(delivered, int64_t{kBulkFrames} * kCandidates / 4);
 
-  // Of the call, no slice is made between the dance's first and its last.
+  // No slice of the call runs between the dance's first and its last.
   const std::vector<Log::Did> all = log->Copy();
   const auto of_dance = [](Log::Did did) { return did != Log::Did::kBulkSlice; };
   const auto first =
@@ -142,12 +142,12 @@ TEST_F(BulkTest, DancesPreemptLongTransitionCalls) {
   ASSERT_LT(first, last);
   EXPECT_EQ(std::count(first, last, Log::Did::kDanceEnds), 2);
   EXPECT_EQ(std::count(first, last, Log::Did::kBulkSlice), 0);
-  // Then it continues.
+  // Then the call continues.
   const int64_t then = log->Count(Log::Did::kBulkSlice);
   ExpectEventually([&] { return log->Count(Log::Did::kBulkSlice) > then; }, "it goes on");
 }
 
-// As a dance cancels when it is edited, and a page when its reader has left.
+// A dance cancels calls when it is edited, and a page when its reader leaves.
 TEST_F(BulkTest, CancelledCallsCostAtMostTheirSlice) {
   constexpr int kCalls = 20;
   for (int i = 0; i < kCalls; ++i) {
@@ -157,7 +157,7 @@ TEST_F(BulkTest, CancelledCallsCostAtMostTheirSlice) {
     bulk.Cancel();
   }
   ExpectIdle();
-  // A window is of 96 frames at most, so all of them would be more than so many slices.
+  // A window has at most 96 frames, so a whole call would take more slices than this.
   constexpr int kAll = kCalls * kCandidates * kBulkFrames / 96;
   EXPECT_LT(log->Count(Log::Did::kBulkSlice), kAll / 8);
   EXPECT_TRUE(Dance().status.ok());

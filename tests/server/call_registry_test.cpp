@@ -10,7 +10,7 @@
 #include "server/refusal.h"
 #include "tests/support/advanced_clock.h"
 
-/// Who gets the places of a server, and when those who got none should come again.
+/// Which callers get a server's places, and when refused callers should retry.
 namespace choreo::call_registry_test {
 
 struct SilentCall final : Call {
@@ -99,7 +99,7 @@ TEST_F(CallRegistryTest, UtilisationIsTheBusiestCallers) {
   EXPECT_TRUE(Come("bob"));
 }
 
-// So that they do not come back together.
+// Otherwise all would retry at the same moment.
 TEST_F(CallRegistryTest, RefusedCallsAreSpread) {
   std::set<double> times;
   for (int i = 0; i < 100; ++i) {

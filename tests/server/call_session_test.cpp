@@ -17,7 +17,7 @@ namespace choreo::call_session_test {
 
 using Response = v1::StreamDanceResponse;
 
-/// Accepts what the test wants it to.
+/// Completes a write only when the test says so.
 struct SlowWire : Outbox<Response>::Wire {
   void Write(const Response* /*message*/) override {}
   void Finish(const grpc::Status& /*status*/) override {}

@@ -9,7 +9,7 @@
 #include <grpcpp/create_channel.h>
 #include <grpcpp/security/credentials.h>
 
-/// However a call ends, all that it had comes back: its place, its transitions, threads and
+/// A call gives back all it held, however it ends: its place, its transitions, threads and
 /// descriptors.
 namespace choreo::cleanup_test {
 
@@ -28,7 +28,7 @@ const char* NameOf(End end) {
   return kNames[static_cast<int>(end)];
 }
 
-/// How many entries a folder of /proc/self has.
+/// The number of entries in a folder of /proc/self.
 int64_t CountIn(const char* folder) {
   return std::distance(std::filesystem::directory_iterator(folder),
                        std::filesystem::directory_iterator());
@@ -56,7 +56,7 @@ class CleanupTest : public ServerTest, public testing::WithParamInterface<std::t
     Connect(std::make_unique<Server>(config, std::move(models)));
   }
 
-  // A call that lasts until it is ended, and its end.
+  // Starts a call that lasts until it is ended, and ends it in the given way.
   void Call(Kind kind, End end) {
     std::optional<TcpProxy> proxy;
     std::shared_ptr<grpc::Channel> own = channel;
@@ -76,7 +76,7 @@ class CleanupTest : public ServerTest, public testing::WithParamInterface<std::t
       v1::GenerateTransitionRequest request;
       *request.mutable_config() = Config();
       request.mutable_config()->set_encoding(v1::ROTATION_ENCODING_MATRIX);
-      // An unread dance does not end: the outbox fills.
+      // A dance that is not read does not end, because the outbox fills.
       request.set_frames(end == End::kError ? 0 : 1800);
       request.set_candidates(end == End::kSuccess ? 1 : 32);
       grpc::ClientContext context;

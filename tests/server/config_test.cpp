@@ -106,7 +106,7 @@ TEST(ServerConfigTest, ReadsTomlAsItIs) {
   EXPECT_EQ(line.config->max_load, 0.5);
 }
 
-// File and line, whatever is wrong with it; but a flag is not in the file.
+// An error in the file names file and line; an error in a flag does not.
 TEST(ServerConfigTest, SaysWhereInTheFileAnErrorIs) {
   const std::string path = testing::TempDir() + "choreod_config_line_test.toml";
   const auto said = [&](const std::string& text, std::vector<const char*> more = {}) {
@@ -200,7 +200,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadSetting{"--drain-seconds", "-3"}, BadSetting{"--max-connection-seconds", "2073601"},
         BadSetting{"--frobnicate", "1"}));
 
-// A collector of JSON lines gets no others.
+// Whoever collects JSON lines must get no other lines.
 TEST(ServerConfigTest, ErrorsAreJsonWhereTheLogIs) {
   for (const std::vector<const char*>& arguments :
        {std::vector<const char*>{"--log-format", "json", "--workers", "-1"},
@@ -215,7 +215,7 @@ TEST(ServerConfigTest, ErrorsAreJsonWhereTheLogIs) {
   }
 }
 
-// A server that was to ask for tokens does not start without.
+// A server that should require tokens does not start without them.
 TEST(ServerConfigTest, RefusesAnEmptyFileName) {
   const std::string path = testing::TempDir() + "choreod_config_empty_test.toml";
   std::ofstream(path) << "tokens = \"\"\n";
@@ -240,7 +240,7 @@ TEST(ServerConfigTest, ListsValidChoices) {
             "choreod: --engine: \"fast\" is none of auto, torch, packed, packed-bf16\n");
 }
 
-// The setting, its value, and what is allowed.
+// Each error names the setting, its value and the limit.
 TEST(ServerConfigTest, ErrorsAreOfOneShape) {
   const std::string path = testing::TempDir() + "choreod_config_shape_test.toml";
   std::ofstream(path) << "max-loud = 1\n";
@@ -272,7 +272,7 @@ TEST(ServerConfigTest, ErrorsAreOfOneShape) {
       "choreod: --model: \"free\" is a model that ships; --checkpoint and --models exclude it\n");
 }
 
-// The file, too.
+// The same holds for settings in the file.
 TEST(ServerConfigTest, EverySettingHasAVariable) {
   ServerConfig config;
   CLI::App app;
@@ -301,7 +301,7 @@ TEST(ServerConfigTest, EverySettingHasAVariable) {
   EXPECT_EQ(flag.config->io_threads, 5);
 }
 
-// Beyond this machine: only with TLS, or with --insecure.
+// Other machines may connect only with TLS, or with --insecure.
 TEST(ServerConfigTest, PlaintextBeyondLocalhostNeedsAFlag) {
   for (const char* everywhere : {"0.0.0.0:0", "[::]:0", "203.0.113.1:1"}) {
     testing::internal::CaptureStderr();
@@ -326,7 +326,7 @@ TEST(ServerConfigTest, EnvironmentSetsFlags) {
   EXPECT_TRUE(Parse({}).config->reflection);
 }
 
-// It would be a limit, or a protection, that is not there.
+// An ignored variable would be a limit or a protection that is missing.
 TEST(ServerConfigTest, RefusesAMisspeltVariable) {
   const auto said = [](const char* variable, bool starts) {
     ::setenv(variable, "7", 1);
@@ -346,7 +346,7 @@ TEST(ServerConfigTest, RefusesAMisspeltVariable) {
   }
   EXPECT_EQ(said("CHOREO_XYLOPHONE", true),
             "choreod: CHOREO_XYLOPHONE: no setting has this variable; choreod --help lists them\n");
-  // A client's, and those of a Kubernetes service called choreo.
+  // Variables of a client, and those of a Kubernetes service called choreo.
   for (const char* other : {"CHOREO_SERVER", "CHOREO_SERVICE_HOST", "CHOREO_SERVICE_PORT_GRPC",
                             "CHOREO_PORT", "CHOREO_PORT_50051_TCP_ADDR", "CHORE", "CHOREOD_PORT"})
     EXPECT_EQ(said(other, true), "");

@@ -30,7 +30,7 @@ class ControlsServerTest : public ServerTest {
     *request.mutable_controls() = controls;
     return request;
   }
-  /// A dance of 120 frames.
+  /// Dances 120 frames.
   Answer DanceWith(const v1::Controls& controls, const std::string& model = "") {
     v1::StreamDanceRequest config;
     *config.mutable_config() = Config();
@@ -147,7 +147,7 @@ TEST_F(ControlsServerTest, DanceHasTheRequestedPartVelocities) {
   EXPECT_NEAR(Asked(dance, BodyPart::kLeftArm, 60), 2 * 0.02, 1e-5);
   EXPECT_NEAR(Asked(dance, BodyPart::kRightLeg, 60), 0.25 * 0.05, 1e-5);
   EXPECT_NEAR(Asked(dance, BodyPart::kTrunk, 60), 0.01, 1e-5);
-  // Of another reference; and absolute.
+  // Relative to another reference, and absolute.
   controls = Factors({10});
   controls.mutable_velocity_factors()->set_reference("calm");
   answer = DanceWith(controls);
@@ -198,7 +198,7 @@ TEST_F(ControlsServerTest, ContradictionsAreWarningsWithTheAmount) {
   ASSERT_TRUE(answer.status.ok()) << answer.status.error_message();
   std::vector<v1::Event> warnings;
   for (const v1::Event& event : answer.events) {
-    // The key's pose is a random one, and so is the way to it.
+    // The key's pose is random, and so is the motion before it.
     const v1::WarningCode code = event.warning().code();
     const bool is_random =
         code == v1::WARNING_CODE_KEY_IMPOSSIBLE || code == v1::WARNING_CODE_JOINT_TOO_FAST;
@@ -211,7 +211,7 @@ TEST_F(ControlsServerTest, ContradictionsAreWarningsWithTheAmount) {
   EXPECT_EQ(warnings[1].warning().code(), v1::WARNING_CODE_PATH_TOO_FAST);
   EXPECT_LT(warnings[1].frame(), 30);
   EXPECT_THAT(warnings[1].warning().message(), HasSubstr("m/s; people reach 5"));
-  // The key wins.
+  // The key takes precedence.
   ASSERT_EQ(answer.summary->report().keyframes_size(), 1);
   EXPECT_LT(answer.summary->report().keyframes(0).errors().final_error_m(), 1e-3);
 }
@@ -292,7 +292,7 @@ struct BadControls {
   const char* message;  ///< after "controls." or "controls[0]."
 };
 
-// What the test is called by.
+// The name of the test's case.
 void PrintTo(const BadControls& bad, std::ostream* out) { *out << bad.name; }
 
 class BadControlsTest : public ControlsServerTest, public testing::WithParamInterface<BadControls> {

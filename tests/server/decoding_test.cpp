@@ -54,7 +54,7 @@ class DecodingTest : public ServerTest {
   }
 };
 
-// Two of them for the two threads that decode.
+// Two files keep both decoding threads busy.
 TEST_F(DecodingTest, DoesNotBlockOthersAndEndsWithItsCall) {
   Start(1, [](ServerConfig& config) { config.io_threads = 2; });
   const auto slowest = [this] {

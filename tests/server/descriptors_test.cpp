@@ -16,7 +16,7 @@ namespace choreo::descriptors_test {
 
 using authoring::LocalServer;
 
-/// For this process and those that it starts, while it lives.
+/// Limits descriptors of this process and its children during its lifetime.
 class DescriptorLimit {
  public:
   explicit DescriptorLimit(rlim_t count) {
@@ -33,8 +33,8 @@ class DescriptorLimit {
   rlimit before_{};
 };
 
-// More connections than the server may have descriptors: those beyond are sent away, and once the
-// others are gone it serves as before.
+// More clients connect than the server has descriptors for. The surplus is refused, and once the
+// others have left it serves as before.
 TEST(DescriptorsTest, AreFreedAfterTooManyConnections) {
   constexpr int kDescriptors = 200;
   constexpr int kConnections = 260;

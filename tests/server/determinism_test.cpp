@@ -3,8 +3,8 @@
 
 #include "tests/server/fixture.h"
 
-/// The answer is a function of the ordered messages: not of the load, of how music is cut, of when
-/// a message comes, nor of where a dance was taken up.
+/// An answer depends only on the ordered messages: not on load, on how music is cut, on when a
+/// message arrives, or on where a dance was resumed.
 namespace choreo::determinism_test {
 
 enum class Heard {
@@ -83,7 +83,7 @@ TEST_P(DeterminismTest, ChunksDoNotMatter) {
   EXPECT_FALSE(whole.Join() == Stream(4, 1 << 20).Join()) << "the seed does nothing";
 }
 
-// What the others would not show if nothing of it were heard.
+// The other tests would pass if the music were ignored.
 TEST_P(DeterminismTest, AllThatIsHeardMatters) {
   Start();
   const auto stream = [&](const auto& change) {
@@ -106,7 +106,7 @@ TEST_P(DeterminismTest, AllThatIsHeardMatters) {
   EXPECT_FALSE(all == stream([](v1::DanceConfig* config) { config->add_music_energies(1); }));
 }
 
-// Each message is sent when all frames that it made possible have come; or all of them at once.
+// Sends each message once all frames that were possible before it have come, or all at once.
 TEST_P(DeterminismTest, TimingDoesNotMatter) {
   Start();
   const Answer at_once = Stream(3, 2 * 735 * 7);
@@ -131,7 +131,7 @@ TEST_P(DeterminismTest, TimingDoesNotMatter) {
   EXPECT_TRUE(client.Finish().Join() == at_once.Join());
 }
 
-// Streams and transitions take turns with others of other seeds and chunks.
+// Streams and transitions compete with others that have other seeds and chunks.
 TEST_P(DeterminismTest, SameBitsAloneAndAmong31Others) {
   constexpr int kCalls = 32;
   Start(/*workers=*/2);

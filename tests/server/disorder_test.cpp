@@ -14,7 +14,7 @@ namespace choreo::disorder_test {
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 
-/// Ends the program, which a test that hangs would never do.
+/// Ends the program if a test hangs.
 class Watchdog {
  public:
   explicit Watchdog(seconds limit)
@@ -40,13 +40,13 @@ class Watchdog {
   std::jthread thread_;
 };
 
-/// What a client sends, and whether it ends in good order.
+/// The messages of a client, and whether it closes its stream.
 struct Script {
   std::vector<v1::StreamDanceRequest> messages;
   bool cancels = false;
 };
 
-/// Messages in an order that a seed decides: most of them would be good ones in another order.
+/// Messages in an order that a seed decides. Most would be valid in another order.
 class ScriptWriter {
  public:
   explicit ScriptWriter(uint32_t seed) : random_(seed) {}
@@ -135,7 +135,7 @@ class DisorderTest : public ServerTest {
     return script.cancels ? client.Cancel() : client.Finish();
   }
 
-  // That a stream ended as it may.
+  // Checks that a stream ended in one of the allowed ways.
   static void ExpectAnAnswer(const Script& script, const Answer& answer) {
     switch (answer.status.error_code()) {
       case grpc::StatusCode::OK:
@@ -178,7 +178,7 @@ TEST_F(DisorderTest, PacingAfterTheLastKeyIsHarmless) {
   ExpectIdle();
 }
 
-// Four at once on two workers: also what a stream answers must not depend on the others.
+// Four at once on two workers, because a stream's answers must not depend on the others.
 TEST_F(DisorderTest, MessagesInAnyOrderEndInAnAnswer) {
   const Watchdog watchdog(seconds(240));
   Start(/*workers=*/2);
@@ -198,8 +198,8 @@ TEST_F(DisorderTest, MessagesInAnyOrderEndInAnAnswer) {
         ++danced;
         const Answer again = Play(script);
         ExpectAnAnswer(script, again);
-        // Whether a dance is over before it is cancelled, or before a message that is refused comes
-        // after its end, time decides.
+        // Timing decides whether a dance ends before it is cancelled, or before a refused message
+        // arrives.
         if (!again.status.ok()) continue;
         EXPECT_TRUE(again.Join() == answer.Join()) << "the same messages, another dance";
         ++twice;

@@ -21,7 +21,7 @@ using std::chrono::milliseconds;
 
 namespace {
 
-// Of other tests and scripts; choreod would warn of them, or take them for settings.
+// Other tests and scripts set these. choreod would warn of them or take them as settings.
 [[maybe_unused]] const bool kVariablesAreUnset = [] {
   std::vector<std::string> ours;
   for (char** at = environ; *at != nullptr; ++at) {

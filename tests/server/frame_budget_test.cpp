@@ -11,7 +11,7 @@ namespace choreo::frame_budget_test {
 
 constexpr FrameShares kShares{.of_all = 0.9, .of_peer = 0.9, .of_lone_peer = 0.9};
 
-/// Two models with one worker each, which has time for 20 dances: 10 of both.
+/// Two models with one worker each, and time for 20 dances: 10 of each model.
 class FrameBudgetTest : public ::testing::Test {
  protected:
   FrameBudgetTest() {
@@ -23,7 +23,7 @@ class FrameBudgetTest : public ::testing::Test {
     }
   }
 
-  // How many dances are taken one after the other, from one address.
+  // The number of dances of one address that are admitted one after another.
   static int TakeDances(FrameBudget& budget, const SampleQueue& model, const std::string& address,
                         const char* calls) {
     for (int taken = 0;; ++taken) {
@@ -65,7 +65,7 @@ TEST_F(FrameBudgetTest, OneAddressCannotTakeItAll) {
   EXPECT_EQ(TakeDances(budget, *models[0], "b", calls + 100), 9);
 }
 
-// Slow engines serve two dances or so: one holder must not have both.
+// A slow engine serves about two dances, and one holder must not get both.
 TEST_F(FrameBudgetTest, ARivalFindsTimeOnASmallServer) {
   bool rival = false;
   FrameBudget budget({.of_all = 0.16, .of_peer = 0.155, .of_lone_peer = 0.16},
@@ -103,7 +103,7 @@ TEST_F(FrameBudgetTest, TransitionsPayForTheirFramesUpToHalfTheBudget) {
   EXPECT_THROW(budget.TakeTransition(&calls[2], *models[0], "a", 1'000'000), Error);
 }
 
-// Serving adds to a dance half of what its sampling takes, on one core.
+// On one core, serving a dance costs half as much again as sampling it.
 TEST_F(FrameBudgetTest, DancesPayForWhatServingThemTakes) {
   const ServingCost serving(UsableCores() * 0.5 / 600);
   FrameBudget budget(kShares, {}, &serving);

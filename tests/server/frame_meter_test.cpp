@@ -59,7 +59,7 @@ TEST(FrameMeterTest, HeadersHaveAnEnd) {
   }
 }
 
-// PRIORITY, a reset, SETTINGS, PING, WINDOW_UPDATE, a type that nobody knows, and empty data.
+// PRIORITY, RST_STREAM, SETTINGS, PING, WINDOW_UPDATE, an unknown type, and empty DATA.
 TEST(FrameMeterTest, FramesWithoutContentAreCountedBySeconds) {
   const std::vector<std::pair<int, size_t>> kinds = {{2, 5}, {3, 4},   {4, 6}, {6, 8},
                                                      {8, 4}, {250, 0}, {0, 0}};
@@ -76,7 +76,7 @@ TEST(FrameMeterTest, FramesWithoutContentAreCountedBySeconds) {
   }
 }
 
-// Twice as many half full frames as empty ones, and as many full ones as you like.
+// Half-full frames may be twice as many as empty ones, and full ones are not limited.
 TEST(FrameMeterTest, DataIsCountedByWhatItLacks) {
   const auto flood_after = [](size_t length) {
     const std::string frame = Http2::Frame(Http2::kData, 0, 1, std::string(length, 'a'));

@@ -11,7 +11,7 @@
 
 namespace choreo::free_memory_test {
 
-// Of many pieces every hundredth stays, so none of the pages between goes back by itself.
+// Every hundredth of many pieces stays, so the allocator returns none of the pages between.
 TEST(FreeMemoryTest, GoesBackAlthoughSomeBetweenIsInUse) {
   if (kSanitized) GTEST_SKIP() << "sanitizers have an allocator of their own";
   constexpr size_t kPiece = 16 << 10, kStays = 100;

@@ -11,13 +11,13 @@
 #include "tests/server/silent_connections.h"
 #include "tests/support/setting.h"
 
-/// One client that takes all that it can get of something, beside nine that dance in real time from
+/// One client takes all it can get of one resource, while nine others dance in real time from
 /// another address. CHOREO_FAULT_SECONDS makes it longer.
 namespace choreo::greedy_test {
 
 constexpr int kDancers = 9;
 
-/// What the greedy one knows.
+/// What the greedy client knows of the server.
 struct Victim {
   int port;
   std::shared_ptr<grpc::Channel> channel;
@@ -25,7 +25,7 @@ struct Victim {
   const std::atomic<bool>& over;
 };
 
-/// How it is greedy.
+/// The ways of being greedy.
 struct Greed {
   const char* name;
   void (*take)(const Victim& victim);
@@ -41,7 +41,7 @@ v1::DanceConfig ConfigOf(int frames) {
   return config;
 }
 
-// Dances that are never over, one more whenever one is refused.
+// Opens dances that never end, and another one whenever one is refused.
 void TakeCalls(const Victim& victim) {
   std::vector<std::unique_ptr<DanceClient>> dances;
   while (!victim.over) {
@@ -52,7 +52,7 @@ void TakeCalls(const Victim& victim) {
   }
 }
 
-// Calls that say nothing.
+// Opens calls and sends nothing.
 void TakeTurns(const Victim& victim) {
   std::vector<std::unique_ptr<DanceClient>> calls;
   for (; !victim.over; calls.resize(std::min<size_t>(calls.size(), 200))) {
@@ -61,7 +61,7 @@ void TakeTurns(const Victim& victim) {
   }
 }
 
-// All candidates of the longest transitions.
+// Asks for all candidates of the longest transitions.
 void TakeSlots(const Victim& victim) {
   std::vector<std::jthread> callers;
   for (int i = 0; i < 8; ++i) {
@@ -83,7 +83,7 @@ void TakeSlots(const Victim& victim) {
   }
 }
 
-// As many frames as possible, none of which is read.
+// Asks for as many frames as possible, and reads none.
 void TakeFrames(const Victim& victim) {
   std::vector<std::unique_ptr<DanceClient>> dances;
   for (int i = 0; i < 32; ++i) {
@@ -94,7 +94,7 @@ void TakeFrames(const Victim& victim) {
   victim.over.wait(false);
 }
 
-// Music files that never come whole.
+// Sends music files that never end.
 void TakeMemory(const Victim& victim) {
   const std::string piece(4 << 20, 'x');
   std::vector<std::unique_ptr<DanceClient>> dances;
@@ -109,7 +109,7 @@ void TakeMemory(const Victim& victim) {
   }
 }
 
-// The largest messages, of what would be the most objects.
+// Sends the largest messages, made of as many objects as possible.
 void TakeObjects(const Victim& victim) {
   const std::string pose = WireField(v1::History::kPosesFieldNumber, "");
   std::string poses;

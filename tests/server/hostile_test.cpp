@@ -16,7 +16,7 @@
 #include "tests/support/sanitizers.h"
 #include "tests/support/setting.h"
 
-/// Clients that speak HTTP/2 to do harm, and those who are served meanwhile.
+/// Clients that misuse HTTP/2, and the clients that are served meanwhile.
 namespace choreo::hostile_test {
 
 using Clock = std::chrono::steady_clock;
@@ -30,7 +30,7 @@ int64_t ResidentBytes(const std::string& process) {
 
 class HostileTest : public ServerTest {
  protected:
-  // Dances one after another during `harm`; returns the seconds of the longest.
+  // Dances one dance after another during `harm`. Returns the seconds of the longest.
   double SlowestDanceDuring(const std::function<void()>& harm) {
     std::atomic<bool> over = false;
     std::jthread harming([&] {
@@ -50,8 +50,8 @@ class HostileTest : public ServerTest {
   }
 };
 
-// A length of 4 GiB is announced, and a little comes: nothing is set aside for the rest, and the
-// call ends as one whose first message does not come.
+// A client announces 4 GiB and sends a few bytes. The server reserves nothing for the rest, and the
+// call ends like one without a first message.
 TEST_F(HostileTest, AMessageOf4GiBTakesNoMemory) {
   Start(1, [](ServerConfig& config) { config.first_message_seconds = 1; });
   const int64_t before = ResidentBytes("self");
@@ -121,9 +121,9 @@ TEST_F(HostileTest, AnswersThatNobodyReadsAreBounded) {
   EXPECT_TRUE(Eventually([&] { return ask(stub()).ok(); }));
 }
 
-// Calls that are reset as soon as they are begun, as fast as they can be sent.
+// A client begins and resets calls as fast as it can.
 TEST_F(HostileTest, OthersAreServedDuringRapidResets) {
-  // They come from the address of the others here, who would share its places.
+  // Here all clients have one address, and would share its places.
   Start(1, [](ServerConfig& config) { config.max_streams_of_peer = 65'536; });
   constexpr int kCalls = 20'000;
   const int64_t before = ResidentBytes("self");
@@ -201,7 +201,7 @@ TEST_F(HostileTest, RapidResetsWithoutCpu) {
             << Milliseconds(alone, 0.5) << " ms and p99 " << Milliseconds(alone, 0.99) << " ms\n";
 }
 
-// A header that goes on for ever, in frames so small that gRPC reads it again most often.
+// An endless header in frames so small that gRPC rereads it as often as possible.
 TEST_F(HostileTest, HeadersWithoutAnEndAreCutOff) {
   Start(1);
   const auto behaved = StubOfAnotherAddress(server->port());
@@ -211,7 +211,7 @@ TEST_F(HostileTest, HeadersWithoutAnEndAreCutOff) {
     frames += Http2::Frame(Http2::kContinuation, 0, 1, std::string(kFrame, 'a'));
   }
   Http2 client(server->port());
-  // A literal header named "x-a", whose value is announced with 128 MiB.
+  // A literal header named "x-a" with an announced value of 128 MiB.
   client.Send(Http2::Frame(Http2::kHeaders, 0, 1,
                            std::string("\x83\x86\0\x03x-a\x7f\x80\x80\x80\x40", 12)));
   size_t sent = 0;
@@ -220,8 +220,8 @@ TEST_F(HostileTest, HeadersWithoutAnEndAreCutOff) {
   EXPECT_TRUE(DanceInRealTime(*behaved, Config(), 1).answer.status.ok());
 }
 
-// Frames that belong to no call or to one that is over: no window holds them back, and gRPC works
-// on each. Who has flooded is held off.
+// Frames of no call, or of a finished one. No window limits them, and gRPC handles each. A client
+// that has flooded the server may not reconnect for a while.
 TEST_F(HostileTest, FramesWithoutContentAreCutOff) {
   Start(1);
   const auto behaved = StubOfAnotherAddress(server->port());

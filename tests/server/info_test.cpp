@@ -15,7 +15,7 @@
 
 namespace choreo::info_test {
 
-// Health and reflection are called with raw bytes: their messages are not ours to generate.
+// Calls health and reflection with raw bytes, because we do not generate their messages.
 std::string CallRaw(const std::shared_ptr<grpc::Channel>& channel, const std::string& method,
                     const std::string& request, bool stream) {
   grpc::GenericStub stub(channel);
@@ -88,7 +88,7 @@ class BriefSampler : public FakeSampler {
   explicit BriefSampler(int longest) { model_.max_transition_frames = longest; }
 };
 
-// The server's limit is one thing, what its model can do another.
+// The server's limit and the model's limit are different things.
 // Old clients, which cannot ask, get them.
 TEST_F(InfoTest, CardsCanBeLeftOut) {
   Start(1);

@@ -17,7 +17,7 @@ using std::chrono::milliseconds;
 
 class LifecycleTest : public ServerTest {
  protected:
-  // A dance that waits for more of its music.
+  // Starts a dance that waits for more music.
   std::unique_ptr<DanceClient> OpenEndedDance(std::optional<milliseconds> deadline = std::nullopt) {
     auto client = std::make_unique<DanceClient>(stub(), deadline);
     v1::DanceConfig config = Config();
@@ -121,7 +121,7 @@ TEST_F(LifecycleTest, TransitionsBeyondTheirRoomAreRefused) {
   EXPECT_TRUE(Generate(request).status.ok());
 }
 
-// Nothing is read: HTTP/2 fills, the outbox fills, the dance pauses. Then all of it comes.
+// The client reads nothing: HTTP/2 and the outbox fill, and the dance pauses. Then it reads all.
 TEST_F(LifecycleTest, SlowReaderPausesOnlyItsOwnDance) {
   Start(1, [](ServerConfig& config) { config.outbox_kib = 16; });
   DanceClient slow(stub());
@@ -138,8 +138,8 @@ TEST_F(LifecycleTest, SlowReaderPausesOnlyItsOwnDance) {
   EXPECT_EQ(answer.Join().count, 20'000);
 }
 
-// Each message is refused, and the client reads no refusal: soon the server reads no more. Then
-// every message gets its answer.
+// The server refuses each message, and the client reads no answer, so the server stops reading.
+// Later every message gets its answer.
 TEST_F(LifecycleTest, ServerDoesNotReadFromASlowReader) {
   Start(1, [](ServerConfig& config) { config.outbox_kib = 1; });
   grpc::ChannelArguments small_windows;
@@ -202,7 +202,7 @@ TEST_F(LifecycleTest, DrainLetsShortDancesFinishAndEndsTheOthers) {
   ExpectEventually([this] { return server->calls() == 0; }, "all calls are over");
 }
 
-// Another server takes over with nothing to dance twice.
+// Another server takes over and dances no frame twice.
 TEST_F(LifecycleTest, DrainedStreamEndsAfterATransition) {
   Start();
   DanceClient client(stub());
@@ -223,7 +223,7 @@ TEST_F(LifecycleTest, DrainedStreamEndsAfterATransition) {
   EXPECT_EQ(answer.continuations.back().frame(), answer.Join().count);
 }
 
-// The connection existed before, and was idle when the server stopped.
+// The connection was idle when the server stopped.
 TEST_F(LifecycleTest, LateCallsAreNotCancelled) {
   for (int round = 0; round < 3; ++round) {
     Start();
@@ -246,7 +246,7 @@ int64_t ResidentBytes() {
   return resident * ::sysconf(_SC_PAGESIZE);
 }
 
-// Clients that go in the middle of a song that is a file: the server holds all of it until its end.
+// Clients leave while they send a music file, which the server keeps whole until it ends.
 TEST_F(LifecycleTest, FreesMemoryOfLostClients) {
   if (kSanitized) GTEST_SKIP() << "the sanitizer keeps what is freed";
   Start();

@@ -78,7 +78,7 @@ TEST_P(WireLimitsTest, RefusesTooManyBytesBesideMusic) {
   ExpectRefused(WireField(kConfig, name), "request", "4194304");
 }
 
-// A message that can't be read is not the end of the stream.
+// A message that cannot be parsed does not count as the end of the stream.
 TEST_P(WireLimitsTest, RefusesBytesThatAreNoMessage) {
   ExpectRefused("this is none", "request", GetParam());
   ExpectRefused(WireField(kConfig, "\x0b\x0c"), "request", "DanceConfig");  // a group
@@ -126,7 +126,7 @@ TEST_F(LimitsTest, FingerprintsAreNotEchoed) {
   EXPECT_TRUE(answer.events.empty());
 }
 
-// A request that would be inflated is refused before it is.
+// The server refuses a compressed request before it inflates it.
 TEST_F(LimitsTest, CompressedRequestsAreRefused) {
   Start();
   for (const auto algorithm : {GRPC_COMPRESS_GZIP, GRPC_COMPRESS_DEFLATE}) {
@@ -144,7 +144,7 @@ TEST_F(LimitsTest, CompressedRequestsAreRefused) {
   ExpectIdle();
 }
 
-// The server sends GOAWAY; the connection ends after its dance, and the next call has another one.
+// The server sends GOAWAY. The connection ends after its dance, and the next call opens another.
 TEST_F(LimitsTest, AnOldConnectionTakesNoNewCalls) {
   Start(1, [](ServerConfig& config) { config.max_connection_seconds = 0.2; });
   DanceClient dance(stub());
@@ -162,7 +162,7 @@ TEST_F(LimitsTest, AnOldConnectionTakesNoNewCalls) {
   EXPECT_TRUE(dance.answer().status.ok());
 }
 
-// As gRPC's SETTINGS say: HTTP/2, RFC 9113, 6.5.
+// The limits that gRPC's SETTINGS announce (HTTP/2, RFC 9113, 6.5).
 TEST_F(LimitsTest, CallsPerConnectionAreLimited) {
   Start(1, [](ServerConfig& config) { config.max_streams = 7; });
   const int connection = socket(AF_INET, SOCK_STREAM, 0);

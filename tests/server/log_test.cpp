@@ -13,14 +13,14 @@
 #include "server/log.h"
 #include "tests/server/fixture.h"
 
-/// The lines of a server's log.
+/// What a server logs.
 namespace choreo::log_test {
 
 using testing::HasSubstr;
 
 class LogTest : public ServerTest {
  protected:
-  // A call with this traceparent; the lines that it leaves.
+  // Makes a call with this traceparent, and returns the lines logged.
   std::vector<std::string> LinesOfCall(bool json, const std::string& traceparent) {
     const auto before = spdlog::default_logger();
     testing::internal::CaptureStderr();
@@ -71,7 +71,7 @@ TEST_F(LogTest, AsJsonEachLineIsAnObject) {
     if (object.at("message") == "call") calls.push_back(object);
   }
   ASSERT_EQ(calls.size(), 3U);
-  // Lines of calls that end together come in any order: those without a model first.
+  // Lines of calls that end together come in any order. Sort those without a model first.
   std::ranges::stable_partition(calls, [](const auto& call) { return !call.contains("model"); });
   EXPECT_EQ(calls[0].at("method"), "GetServerInfo");
   EXPECT_EQ(calls[0].at("trace_id"), "4bf92f3577b34da6a3ce929d0e0e4736");
@@ -85,7 +85,7 @@ TEST_F(LogTest, AsJsonEachLineIsAnObject) {
   EXPECT_EQ(calls[2].at("stream_id"), stream_id_);
 }
 
-// A dance that servers hand on is one in their logs.
+// A dance that moves from server to server has one id in their logs.
 TEST_F(LogTest, AResumedDanceNamesTheCallInWhichItBegan) {
   const auto before = spdlog::default_logger();
   Start();
@@ -114,7 +114,7 @@ TEST_F(LogTest, AResumedDanceNamesTheCallInWhichItBegan) {
   EXPECT_THAT(said, testing::Not(HasSubstr("no id of ours")));
 }
 
-// Linux has file names of any bytes.
+// On Linux, file names may contain any bytes.
 TEST_F(LogTest, JsonReplacesInvalidUtf8) {
   const auto before = spdlog::default_logger();
   testing::internal::CaptureStderr();
@@ -137,7 +137,7 @@ TEST_F(LogTest, AnOrderlyStopIsNoErrorOfGrpc) {
   EXPECT_THAT(testing::internal::GetCapturedStderr(), HasSubstr("[info] gRPC: cancel_check_peer"));
 }
 
-// Anybody can call without a token, and would fill the log. Lines and what is left out make all.
+// Calls without a token could fill the log, so some are left out. Logged and left-out ones add up.
 TEST_F(LogTest, LinesOfRefusedCallsAreBounded) {
   const auto before = spdlog::default_logger();
   std::ostringstream text;
@@ -175,7 +175,7 @@ TEST_F(LogTest, LinesOfRefusedCallsAreBounded) {
   EXPECT_GT(left_out, lines);
 }
 
-// Anybody who can connect can make gRPC log: it writes ten lines in ten seconds, and counts the
+// Anybody who connects can make gRPC log, so it writes ten lines in ten seconds and counts the
 // rest.
 TEST_F(LogTest, GrpcsLinesAreBounded) {
   const auto before = spdlog::default_logger();

@@ -11,8 +11,8 @@
 #include "tests/support/sanitizers.h"
 #include "tests/support/tcp_proxy.h"
 
-/// What hostile clients make a server take of memory. It runs in a process of its own, whose peak
-/// is the server's alone; figures are printed.
+/// How much memory hostile clients can make a server use. The test has its own process, whose peak
+/// is the server's alone, and prints the figures.
 namespace choreo::memory_test {
 
 constexpr int64_t kMiB = 1 << 20;
@@ -62,7 +62,7 @@ class MemoryTest : public testing::Test {
   int64_t before_ = 0;
 };
 
-// Two bytes each; as objects they would take 800 MiB.
+// Elements of two bytes each, which would take 800 MiB as objects.
 TEST_F(MemoryTest, SixteenMebibytesOfEmptyPoses) {
   const std::string pose = WireField(v1::History::kPosesFieldNumber, "");
   std::string poses;
@@ -72,7 +72,7 @@ TEST_F(MemoryTest, SixteenMebibytesOfEmptyPoses) {
     const grpc::Status status = RawCall(channel_, method, request);
     EXPECT_EQ(status.error_code(), grpc::StatusCode::INVALID_ARGUMENT) << status.error_message();
   }
-  // The bytes themselves, on their way.
+  // The bytes in transit.
   ExpectPeak("16 MiB of empty poses", 64);
 }
 
@@ -89,7 +89,7 @@ TEST_F(MemoryTest, AGzipBomb) {
   ExpectPeak("a gzip bomb of 256 MiB", 16);
 }
 
-// Each sends all of its 16 MiB but the end.
+// Each client sends its 16 MiB except for the end.
 TEST_F(MemoryTest, MessagesThatNeverEnd) {
   constexpr int kClients = 80;
   constexpr int64_t kSent = 15 * kMiB;

@@ -27,7 +27,7 @@
 #include "tests/support/tcp_proxy.h"
 #include "tests/support/temporary_folder.h"
 
-/// A server's figures for Prometheus.
+/// The metrics that a server exports to Prometheus.
 namespace choreo::metrics_test {
 
 using testing::HasSubstr;
@@ -46,7 +46,7 @@ class MetricsTest : public ServerTest {
     EXPECT_EQ(connect(fd, reinterpret_cast<const sockaddr*>(&address), sizeof address), 0);
     return fd;
   }
-  // The text of http://127.0.0.1:PORT/metrics.
+  // Returns the text of http://127.0.0.1:PORT/metrics.
   static std::string MetricsAt(int port) { return AnswerTo(port, "GET /metrics"); }
   static std::string AnswerTo(int port, const std::string& line) {
     const int fd = ConnectTo(port);
@@ -61,7 +61,7 @@ class MetricsTest : public ServerTest {
     close(fd);
     return said;
   }
-  // -1 where it is not there.
+  // Returns -1 for a missing series.
   double Figure(const std::string& name) const {
     const std::string all = Metrics();
     const size_t at = all.find('\n' + name + ' ');
@@ -118,7 +118,7 @@ TEST_F(MetricsTest, ShowWorkInProgress) {
     one->SendKeyframe(Key("a", 20));
   }
   const std::string of_fake = R"({model="fake"})";
-  // Both may wait for a moment: until the worker takes one of them up.
+  // Both may wait for a moment, until the worker starts one of them.
   ExpectEventually([&] { return Figure("choreo_transitions_active" + of_fake) == 1; },
                    "the one has begun");
   ExpectEventually([&] { return Figure("choreo_transitions_waiting" + of_fake) == 1; },
@@ -145,7 +145,7 @@ TEST_F(MetricsTest, CountResumedDances) {
   EXPECT_EQ(Figure("choreo_dances_resumed_total"), 1);
 }
 
-// Prometheus would read a falling counter as a jump of its rate.
+// Prometheus would take a falling counter for a restart, and show a jump in its rate.
 TEST_F(MetricsTest, ContinueAcrossAModelReload) {
   Start(1, [](ServerConfig& config) { config.metrics = "0"; });
   const auto dance = [&] {
@@ -167,7 +167,7 @@ TEST_F(MetricsTest, ContinueAcrossAModelReload) {
   EXPECT_EQ(Figure("choreo_load" + of_fake), 0);
 }
 
-// Figures of a former model do not stay for ever, and the list does not grow.
+// Series of removed models disappear, so the list does not grow.
 TEST_F(MetricsTest, OfARemovedModelEndWithItsLastDance) {
   Start(1, [](ServerConfig& config) { config.metrics = "0"; }, {"fake", "other"});
   DanceClient client(stub());
@@ -186,7 +186,7 @@ TEST_F(MetricsTest, OfARemovedModelEndWithItsLastDance) {
   EXPECT_EQ(Figure(R"(choreo_frames_total{model="fake"})"), 0);
 }
 
-// Each series of a query, with the labels that it is summed by.
+// Each series in a query, with the labels by which it is summed.
 TEST_F(MetricsTest, DashboardUsesExistingMetrics) {
   Start(1, [](ServerConfig& config) { config.metrics = "0"; });
   const std::string all = Metrics();
@@ -222,7 +222,7 @@ TEST_F(MetricsTest, DashboardUsesExistingMetrics) {
   EXPECT_GT(asked, 15);
 }
 
-// An alert on a rate sees the first failure only where the series was there before.
+// An alert on a rate sees the first failure only if the series existed before.
 TEST_F(MetricsTest, EveryStatusIsThereFromTheStart) {
   Start(1, [](ServerConfig& config) { config.metrics = "0"; });
   for (const std::string method : {"StreamDance", "GenerateTransition", "GetServerInfo"}) {
@@ -262,7 +262,7 @@ TEST_F(MetricsTest, DeadClientsAreCancelled) {
   EXPECT_EQ(ended("OK"), 0);
 }
 
-// Autoscalers and alerts go by it.
+// Autoscalers and alerts use it.
 TEST_F(MetricsTest, UtilisationIsOneWhereverCallsAreRefused) {
   Start(1, [](ServerConfig& config) {
     config.metrics = "0";
@@ -416,7 +416,7 @@ TEST_F(MetricsTest, ShowProcessResources) {
   EXPECT_LT(age, 24 * 3600);
 }
 
-// A change of it means a restart.
+// A change of this figure means a restart.
 TEST_F(MetricsTest, TheStartStaysTheSame) {
   Start(1, [](ServerConfig& config) { config.metrics = "0"; });
   std::set<double> starts;
@@ -481,7 +481,7 @@ TEST_F(MetricsTest, NameATakenAddress) {
   }
 }
 
-// With LibTorch, which asks more of every thread.
+// The same with LibTorch, which needs more of each thread.
 TEST_F(MetricsTest, AreServedByTheProgram) {
   if (kSanitized) GTEST_SKIP() << "choreod runs LibTorch";
   const int port = Listener("127.0.0.1:0").port();  // free, most likely still in a moment

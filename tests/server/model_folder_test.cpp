@@ -8,7 +8,7 @@
 #include "tests/server/reload_fixture.h"
 #include "tests/support/expect_error.h"
 
-// Which files of a folder of models are served.
+// Which files of a model folder are served.
 namespace choreo::model_folder_test {
 
 TEST_F(ReloadTest, UnusableFileKeepsTheServedModel) {
@@ -74,7 +74,7 @@ TEST_F(ReloadTest, AddsAndRemovesModels) {
   ExpectAlive(1);
 }
 
-// Whatever their names and order.
+// Names and order do not matter.
 TEST_F(ReloadTest, PrefersAGoodFileToABrokenOneOfTheSameModel) {
   Write("default.safetensors", "a 1");
   Write("b.safetensors", "b 1");
@@ -107,7 +107,7 @@ TEST_F(ReloadTest, KeepsServedModelsIfNoneIsUsable) {
   EXPECT_TRUE(Whole("a").status.ok());
 }
 
-// A touched or renamed file is the same model, so no dance changes.
+// A touched or renamed file holds the same model, so no dance changes.
 TEST_F(ReloadTest, LoadsOnlyChangedFiles) {
   Write("a.safetensors", "a 1");
   Write("b.safetensors", "b 1");

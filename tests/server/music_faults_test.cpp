@@ -5,7 +5,7 @@
 
 namespace choreo::music_faults_test {
 
-/// Music that can be danced, but not as its sender expects.
+/// Music that can be danced to, but differs from what its sender expects.
 class MusicFaultsTest : public ServerTest {
  protected:
   using Requests = std::vector<v1::StreamDanceRequest>;
@@ -27,7 +27,7 @@ class MusicFaultsTest : public ServerTest {
     *request.mutable_keyframe() = Key("k", frame);
     return request;
   }
-  /// The one event with a warning of this code.
+  /// Returns the only event with a warning of this code.
   static v1::Event TheWarning(const std::vector<v1::Event>& events, v1::WarningCode code) {
     const auto is_it = [code](const v1::Event& event) { return event.warning().code() == code; };
     EXPECT_EQ(std::ranges::count_if(events, is_it), 1);
@@ -79,7 +79,7 @@ TEST_F(MusicFaultsTest, SilenceIsDancedWithAWarning) {
   TheWarning(Dance(WithFile(Wav(std::string(44'100, '\0')))).events, v1::WARNING_CODE_MUSIC_SILENT);
 }
 
-// Of the key and the end of the music, the later one tells.
+// The later of the key and the end of the music decides.
 TEST_F(MusicFaultsTest, AKeyBehindTheMusicIsReachedWithAWarning) {
   Start();
   v1::StreamDanceRequest end;

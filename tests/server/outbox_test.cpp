@@ -83,7 +83,7 @@ TEST_F(OutboxTest, QueuedFramesAreJoined) {
             (std::vector<std::pair<int64_t, int>>{{0, 1}, {1, 60}, {61, 10}, {0, 1}, {5, 1}}));
 }
 
-// Joined frames count from the first of them on.
+// Joined frames count as waiting since the first of them was queued.
 TEST_F(OutboxTest, TellsWhatHasGoneOutAndSinceWhenItWaited) {
   using Clock = std::chrono::steady_clock;
   std::vector<std::pair<int64_t, Clock::time_point>> sent;
@@ -122,7 +122,7 @@ TEST_F(OutboxTest, ASlowClientPausesTheDance) {
   EXPECT_EQ(pauses, (std::vector<bool>{true, false}));
 }
 
-// A client that asks and asks, each question answered by an event, and takes no answer.
+// A client sends message after message, each answered by an event, and reads no answer.
 TEST_F(OutboxTest, StopsReadingFromASlowReader) {
   Response refusal;
   refusal.mutable_event()->mutable_keyframe_rejected()->set_reason(std::string(100, 'x'));

@@ -8,7 +8,8 @@
 #include "tests/support/sanitizers.h"
 #include "tests/support/setting.h"
 
-/// Four times the dances that an engine has time for. CHOREO_FAULT_SECONDS makes it longer.
+/// Clients ask for four times as many dances as an engine has time for. CHOREO_FAULT_SECONDS makes
+/// it longer.
 namespace choreo::overload_test {
 
 using Clock = std::chrono::steady_clock;
@@ -22,7 +23,7 @@ constexpr int kGrantsOfDance = 40;
 // What is left must not stay idle. Sanitizers make serving too slow to tell.
 constexpr int kAdmittedAtLeast = kSanitized ? 1 : kHolds / 2;
 
-/// Takes this long for each frame, on any machine.
+/// Takes kFrameTime for each frame, on any machine.
 class CostlySampler final : public FakeSampler {
  public:
   void OnFrame(const TransitionSpec& /*spec*/, Plan* /*plan*/) override {
@@ -37,7 +38,7 @@ class OverloadTest : public ServerTest {
     int admitted = 0, refused = 0;
   };
 
-  // A server with the defaults, whose engine has time for kHolds dances.
+  // Starts a server with default settings, whose engine has time for kHolds dances.
   void StartCostly() {
     ServerConfig config;
     config.listen = "127.0.0.1:0";
@@ -47,7 +48,7 @@ class OverloadTest : public ServerTest {
     Connect(std::make_unique<Server>(config, std::move(models)));
   }
 
-  // A dance in real time; false where it was refused, as it should be.
+  // Dances in real time. Returns false if the dance was refused, and checks the refusal.
   bool DanceInTime(Seen* seen, milliseconds* come_back) {
     const auto [answer, lateness] = DanceInRealTime(stub(), Config(), kGrantsOfDance);
     const std::lock_guard lock(mutex_);

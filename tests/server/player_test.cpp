@@ -12,7 +12,7 @@ constexpr double kFps = 10;
 
 class PlayerTest : public testing::Test {
  protected:
-  // Of frames that are made and go out so many seconds after the begin.
+  // For frames that are made and sent this many seconds after the start.
   double Late(int64_t first_frame, int made, int sent) {
     return player_.Take(first_frame, begin_ + seconds(made), begin_ + seconds(sent));
   }
@@ -28,7 +28,7 @@ TEST_F(PlayerTest, FramesInTimeAreNotLate) {
   EXPECT_NEAR(Late(20, 2, 2), 0, 1e-9);
 }
 
-// A whole song is made at once, and read no faster than it is played.
+// The frames of a whole song are made at once, and read no faster than they are played.
 TEST_F(PlayerTest, FramesMayWaitUntilTheyArePlayed) {
   EXPECT_NEAR(Late(0, 0, 0), 0, 1e-9);
   EXPECT_NEAR(Late(10, 0, 1), 0, 1e-9);
@@ -49,7 +49,7 @@ TEST_F(PlayerTest, FramesThatWereMadeLateAreNotLateAgain) {
   EXPECT_NEAR(Late(20, 6, 7), 1, 1e-9);
 }
 
-// The first frame of a resumed dance is a later one.
+// A resumed dance does not begin with frame 0.
 TEST_F(PlayerTest, BeginsWithAnyFrame) {
   EXPECT_NEAR(Late(1000, 2, 2), 0, 1e-9);
   EXPECT_NEAR(Late(1010, 3, 4), 1, 1e-9);

@@ -5,10 +5,10 @@
 #include "tests/server/fixture.h"
 #include "tests/support/turning_sampler.h"
 
-/// Poses as they stand on the wire.
+/// How poses are encoded in messages.
 namespace choreo::poses_test {
 
-/// From its 80th frame on farther away than a float can represent.
+/// From frame 80 on, the dancer is farther away than a float can represent.
 class LostSampler final : public FakeSampler {
  public:
   void OnFrame(const TransitionSpec& /*spec*/, Plan* plan) override {
@@ -28,7 +28,7 @@ TEST_F(PosesTest, AreFiniteOrTheDanceFails) {
   request.mutable_config()->set_frames(120);
   const Answer answer = Dance({request});
   EXPECT_EQ(answer.status.error_code(), grpc::StatusCode::INTERNAL);
-  // Feet find their way for all frames of a transition together.
+  // Footwork is planned for all frames of a transition together.
   EXPECT_THAT(answer.status.error_message(),
               testing::ContainsRegex(
                   "^frame [67][0-9], as arrival and footwork leave it, is not a finite pose$"));

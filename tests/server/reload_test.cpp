@@ -6,7 +6,7 @@
 
 #include "tests/server/reload_fixture.h"
 
-// What dances see of models that come in place of theirs.
+// How dances are affected when their models are replaced.
 namespace choreo::reload_test {
 
 TEST_F(ReloadTest, DanceKeepsItsModel) {

@@ -16,14 +16,14 @@
 
 namespace choreo::reloaded_choreod_test {
 
-/// choreod itself, and its signals.
+/// How choreod reacts to signals.
 class ReloadedChoreodTest : public testing::Test {
  protected:
   void SetUp() override {
     if (kSanitized) GTEST_SKIP() << "choreod runs LibTorch";
     Put("default");
     ::setenv("CHOREO_MODELS", models.path().c_str(), 1);
-    // As by default: OpenBLAS starts threads before choreod's main.
+    // The default: OpenBLAS starts threads before choreod's main.
     ::setenv("OPENBLAS_NUM_THREADS", "2", 1);
     server.emplace(CHOREOD_PROGRAM);
     ::unsetenv("OPENBLAS_NUM_THREADS");
@@ -83,7 +83,7 @@ TEST_F(ReloadedChoreodTest, ReloadsItsFolderOnSighup) {
   ExpectSamePoses(Dance(""), free);
 }
 
-// Of a process's threads the kernel may choose any that takes a signal.
+// The kernel may deliver a signal to any thread of the process.
 TEST_F(ReloadedChoreodTest, HandlesASignalOnAnyThread) {
   Put("free");
   const std::string tasks = "/proc/" + std::to_string(server->process()) + "/task";

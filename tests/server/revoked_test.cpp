@@ -12,12 +12,12 @@
 #include "tests/server/fixture.h"
 #include "tests/support/temporary_folder.h"
 
-/// What becomes of dances whose token is revoked.
+/// What happens to dances when their token is revoked.
 namespace choreo::revoked_test {
 
 class RevokedTest : public ServerTest {
  protected:
-  // Of the tokens "a" and "b".
+  // Lines of the tokens "a" and "b".
   static constexpr const char* kAlice =
       "ca978112ca1bbdcafac231b39a23dc4da786eff8147c4e72b9807785afee48bb alice\n";
   static constexpr const char* kBob =
@@ -31,7 +31,7 @@ class RevokedTest : public ServerTest {
     std::ofstream(folder_ / "tokens.new") << lines;
     std::filesystem::rename(folder_ / "tokens.new", folder_ / "tokens");
   }
-  /// A dance of three seconds that waits at its first, after a key.
+  /// Starts a dance of three seconds that waits after its first second, past a key.
   std::unique_ptr<DanceClient> Begin(const std::string& token) {
     auto client = std::make_unique<DanceClient>(
         stub(), std::nullopt,

@@ -23,7 +23,7 @@
 #include "tests/support/shell.h"
 #include "tests/support/temporary_folder.h"
 
-/// How a choreod stops on request, in any state.
+/// How choreod stops on request, in any state.
 namespace choreo::serve_test {
 
 using testing::ContainsRegex;
@@ -31,7 +31,7 @@ using testing::HasSubstr;
 
 class ServeTest : public testing::Test {
  protected:
-  // A process that never ends is no test that never ends.
+  // If the process never ends, the test must end nevertheless.
   ~ServeTest() override {
     if (process_ > 0) kill(process_, SIGKILL);
     if (fifo_ >= 0) close(fifo_);
@@ -55,7 +55,7 @@ class ServeTest : public testing::Test {
     const std::string line = nlohmann::json::parse(Read("said")).at("message");
     return line.substr(line.rfind(' ') + 1);
   }
-  // A checkpoint that is loaded for as long as this test lives, once AwaitLoading has returned.
+  // A checkpoint whose loading lasts as long as this test, once AwaitLoading has returned.
   void WriteSlow(const std::string& name) {
     ASSERT_EQ(mkfifo((folder_ / "fifo").c_str(), 0600), 0);
     std::ofstream(folder_ / "written") << (folder_ / "fifo").string();
@@ -121,7 +121,7 @@ TEST_F(ServeTest, StopsWhileLoadingAnotherModel) {
   WriteSlow("models/b.safetensors");
   Send(SIGHUP);
   AwaitLoading();
-  // Who dances meanwhile may go on.
+  // Dances in progress may continue.
   const client::Client client({.addresses = {address()}});
   const auto dance = client.StartDance({.frames = 30, .generate_until = 0});
   dance->GenerateUntil(10);
@@ -132,7 +132,7 @@ TEST_F(ServeTest, StopsWhileLoadingAnotherModel) {
   EXPECT_THAT(outcome.said, HasSubstr("served 1 calls"));
 }
 
-// Scripts for several servers send it to each.
+// Scripts send the signal to several servers.
 TEST_F(ServeTest, OutlivesSighupWithoutAFolder) {
   Start("");
   AwaitListening();
@@ -174,7 +174,7 @@ TEST_F(ServeTest, FindsBadSecretsBeforeLoadingModels) {
   }
 }
 
-// Beside the server that runs, which has the address.
+// The address is in use by the running server.
 TEST_F(ServeTest, AFileIsCheckedBeforeARestart) {
   const Listener running("127.0.0.1:0");
   const std::string file = (folder_ / "choreod.toml").string(),
@@ -205,7 +205,7 @@ TEST_F(ServeTest, AFileIsCheckedBeforeARestart) {
   EXPECT_THAT(empty.said, HasSubstr("--models: " + models));
 }
 
-// A server that runs would refuse it, too.
+// A running server would refuse it, too.
 TEST_F(ServeTest, AnExpiredFileFailsTheCheck) {
   const Authority authority(folder_.path(), "authority");
   const Certificate own = authority.Issue("own"), late = authority.IssueExpired("late");
@@ -256,13 +256,13 @@ TEST_F(ServeTest, StopsAtOnceWhenSignalledTwice) {
   const Outcome outcome = End();
   EXPECT_EQ(outcome.code, 0) << outcome.said;
   EXPECT_THAT(outcome.said, HasSubstr("leaves at once"));
-  // The call that it leaves has its line all the same.
+  // The interrupted call is logged nevertheless.
   EXPECT_THAT(outcome.said,
               ContainsRegex("\"method\":\"StreamDance\".*\"status\":\"UNAVAILABLE\""));
   EXPECT_THAT(outcome.said, HasSubstr("the server was told to leave at once"));
 }
 
-/// systemd, as far as it listens to what a service tells it.
+/// The part of systemd that receives a service's notifications.
 class Manager {
  public:
   explicit Manager(const std::filesystem::path& path) {
@@ -280,7 +280,7 @@ class Manager {
     close(socket_);
   }
 
-  /// The next message; "" after ten seconds without one.
+  /// Returns the next message, or "" after ten seconds without one.
   std::string Hear() const {
     char text[1024];
     const ssize_t size = recv(socket_, text, sizeof text, 0);
@@ -291,7 +291,7 @@ class Manager {
   const int socket_ = socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0);
 };
 
-// systemd's Type=notify: who depends on choreod starts once it serves.
+// systemd's Type=notify: units that depend on choreod start once it serves.
 TEST_F(ServeTest, TellsItsManagerHowFarItIs) {
   const Manager manager(folder_ / "notify");
   std::filesystem::create_directory(folder_ / "models");
@@ -307,7 +307,7 @@ TEST_F(ServeTest, TellsItsManagerHowFarItIs) {
   EXPECT_EQ(End().code, 0);
 }
 
-// systemd's WatchdogSec=: who says nothing for that long is begun again.
+// systemd's WatchdogSec=: a service that is silent for that long is restarted.
 TEST_F(ServeTest, TellsItsManagerThatItLives) {
   const Manager manager(folder_ / "notify");
   setenv("WATCHDOG_USEC", "400000", 1);

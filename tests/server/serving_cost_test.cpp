@@ -6,7 +6,7 @@ namespace choreo::serving_cost_test {
 
 constexpr double kFirst = 1e-4;  // seconds a frame, to begin with
 
-/// A process whose totals a test moves.
+/// A process whose totals the test sets.
 class ServingCostTest : public ::testing::Test {
  protected:
   ServingCostTest() { cost.Look(now, true); }
@@ -41,7 +41,7 @@ TEST_F(ServingCostTest, LearnsNothingOfOtherWork) {
   EXPECT_NEAR(cost.seconds_a_frame(), kFirst, 1e-9);
 }
 
-// A decoded file takes as long as thousands of frames.
+// Decoding a file takes as long as thousands of frames.
 TEST_F(ServingCostTest, OneDearFrameWeighsAsOneOfMany) {
   Pass(1, 1);
   EXPECT_LT(cost.seconds_a_frame(), 1e-3);

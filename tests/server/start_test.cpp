@@ -14,8 +14,8 @@
 #include "tests/support/shell.h"
 #include "tests/support/temporary_folder.h"
 
-/// choreod as people start it, with checkpoints that it can't serve: it exits at once, with one
-/// line that names the file, the fault in it and the reason.
+/// choreod, started with checkpoints that it cannot serve, exits at once with one line that names
+/// the file, the fault and the reason.
 namespace choreo::start_test {
 
 Outcome StartWith(const std::filesystem::path& checkpoint) {
@@ -91,7 +91,7 @@ TEST_F(StartTest, ServesAShippedModelByItsName) {
   EXPECT_THAT(both.said, testing::HasSubstr("--model: \"free\" is a model that ships"));
 }
 
-// By the time that it listens it has loaded.
+// It listens only after it has loaded.
 TEST_F(StartTest, WarnsOfSettingsThatTheModelIgnores) {
   const std::string log = path_.string() + ".log";
   const Outcome outcome = Shell(
@@ -102,7 +102,7 @@ TEST_F(StartTest, WarnsOfSettingsThatTheModelIgnores) {
   EXPECT_THAT(outcome.said, testing::HasSubstr("dances at once take"));
 }
 
-// The server needs only what it loaded: running and later dances are unaffected.
+// The server keeps what it has loaded, so running and later dances are unaffected.
 TEST_F(StartTest, ARunningServerOutlivesItsCheckpoint) {
   ::setenv("CHOREO_CHECKPOINT", path_.c_str(), 1);
   authoring::LocalServer server(CHOREOD_PROGRAM);
@@ -112,7 +112,7 @@ TEST_F(StartTest, ARunningServerOutlivesItsCheckpoint) {
   const auto expect_the_same_around = [&](const std::function<void()>& between) {
     ExpectSamePoses(DanceAround(client, "", 300, between), wanted);
   };
-  // In its place, so that who had it open would see it.
+  // Overwritten in place, so that a program that has it open would notice.
   expect_the_same_around([&] { std::ofstream(path_, std::ios::trunc) << "no checkpoint"; });
   expect_the_same_around({});
   expect_the_same_around([&] { std::filesystem::remove(path_); });

@@ -13,7 +13,7 @@ using std::chrono::milliseconds;
 using std::chrono::seconds;
 using testing::HasSubstr;
 
-/// Clients that do nothing, or too much, while others want to dance.
+/// Clients that send nothing, or too much, while others want to dance.
 class StarvationTest : public ServerTest {
  protected:
   static v1::DanceConfig MusicConfig() {
@@ -22,7 +22,7 @@ class StarvationTest : public ServerTest {
     return config;
   }
 
-  // A dance that waits for more of its music.
+  // Starts a dance that waits for more music.
   std::unique_ptr<DanceClient> OpenEndedDance() {
     auto client = std::make_unique<DanceClient>(stub());
     client->Send(MusicConfig());
@@ -31,8 +31,8 @@ class StarvationTest : public ServerTest {
     return client;
   }
 
-  // A dance whose client reads nothing: HTTP/2's small windows fill, then the outbox, and the dance
-  // pauses.
+  // Starts a dance whose client reads nothing. HTTP/2's small windows fill, then the outbox, and
+  // the dance pauses.
   std::unique_ptr<DanceClient> UnreadDance() {
     grpc::ChannelArguments small_windows;
     small_windows.SetInt(GRPC_ARG_HTTP2_BDP_PROBE, 0);
@@ -54,7 +54,7 @@ class StarvationTest : public ServerTest {
     client.SendKeyframe(Key("a", 20));
     return client.Finish();
   }
-  // Prints how long it took.
+  // Checks that a dance is served, and prints how long it took.
   void ExpectServes() {
     const auto begin = std::chrono::steady_clock::now();
     const grpc::Status status = DanceToAKey().status;
@@ -114,7 +114,7 @@ TEST_F(StarvationTest, CallThatWaitsForTheModelGoesOn) {
   EXPECT_THAT(answer.ReachedKeys(), testing::ElementsAre("a"));
 }
 
-// It finds out why when it reads on, also behind what has come before.
+// The client learns the reason when it reads on, after the answers that were sent before.
 TEST_F(StarvationTest, CallThatReadsNothingIsReset) {
   Start(1, [](ServerConfig& config) {
     config.outbox_kib = 16;
@@ -142,7 +142,7 @@ TEST_F(StarvationTest, SlowReaderDoesNotBlockTheOnlyWorker) {
   EXPECT_TRUE(answer.Join() == alone);
 }
 
-// Two dances whose music comes bit by bit take turns with the only worker.
+// Two dances whose music arrives in small pieces share the only worker.
 TEST_F(StarvationTest, WaitingForMusicDoesNotBlockTheOnlyWorker) {
   StartWith(std::make_unique<FakeSampler>());
   const std::string music = Music(3);
@@ -172,7 +172,7 @@ TEST_F(StarvationTest, WaitingForMusicDoesNotBlockTheOnlyWorker) {
   EXPECT_TRUE(second.Finish().Join() == expected.Join());
 }
 
-// More transitions come than there is room for, while nothing of it is in the queue.
+// More transitions arrive than the queue holds, while the live dance has none in it.
 TEST_F(StarvationTest, ABurstEndsNoLiveDance) {
   Start(/*workers=*/1, [](ServerConfig& config) { config.max_waiting = 4; });
   DanceClient live(stub());
@@ -212,7 +212,7 @@ TEST_F(StarvationTest, ABurstEndsNoLiveDance) {
 }
 
 TEST_F(StarvationTest, RefusesAtOnceWhatCannotBeServedInTime) {
-  /// Takes longer for a frame than the frame lasts.
+  /// Takes longer to make a frame than the frame lasts.
   class SlowSampler final : public FakeSampler {
    public:
     void OnFrame(const TransitionSpec& /*spec*/, Plan* /*plan*/) override {

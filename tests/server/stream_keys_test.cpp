@@ -8,7 +8,7 @@ namespace choreo::stream_keys_test {
 
 class StreamKeysTest : public ServerTest {
  protected:
-  // A dance of 120 frames whose keys will be edited.
+  // Starts a dance of 120 frames whose keys will be edited.
   void Begin(DanceClient& client) {
     v1::DanceConfig config = Config();
     config.set_frames(120);
