@@ -1,6 +1,6 @@
 #include "model/flow/checkpoint.h"
 
-#include <torch/torch.h>
+#include <torch/utils.h>
 
 namespace choreo {
 

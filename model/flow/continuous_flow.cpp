@@ -1,7 +1,8 @@
 #include "model/flow/continuous_flow.h"
 
 #include <ATen/autocast_mode.h>
-#include <torch/torch.h>
+#include <torch/nn/init.h>
+#include <torch/utils.h>
 
 #include <algorithm>
 #include <cmath>

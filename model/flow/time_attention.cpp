@@ -1,7 +1,5 @@
 #include "model/flow/time_attention.h"
 
-#include <torch/torch.h>
-
 #include <cmath>
 
 namespace choreo {

@@ -1,7 +1,5 @@
 #include "model/flow/torch_kinematics.h"
 
-#include <torch/torch.h>
-
 namespace choreo {
 
 using torch::Tensor;

@@ -1,7 +1,7 @@
 #include "model/samplers/samplers.h"
 
 #include <torch/cuda.h>
-#include <torch/torch.h>
+#include <torch/types.h>
 
 #include <map>
 #include <utility>

@@ -1,6 +1,6 @@
 #include "model/training/adam.h"
 
-#include <torch/torch.h>
+#include <torch/utils.h>
 
 #include <cmath>
 

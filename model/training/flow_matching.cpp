@@ -1,6 +1,6 @@
 #include "model/training/flow_matching.h"
 
-#include <torch/torch.h>
+#include <torch/types.h>
 
 #include "model/motion/kinematics.h"
 

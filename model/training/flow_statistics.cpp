@@ -1,6 +1,6 @@
 #include "model/training/flow_statistics.h"
 
-#include <torch/torch.h>
+#include <torch/types.h>
 
 #include <Eigen/Cholesky>
 #include <algorithm>

@@ -1,6 +1,8 @@
 #include "model/training/training_run.h"
 
-#include <torch/torch.h>
+#include <torch/autograd.h>
+#include <torch/nn/module.h>
+#include <torch/utils.h>
 
 #include <algorithm>
 #include <chrono>

@@ -1,7 +1,5 @@
 #include "model/training/window_batch.h"
 
-#include <torch/torch.h>
-
 #include <utility>
 
 #include "model/motion/kinematics.h"

@@ -1,6 +1,7 @@
 #include "model/training/window_body.h"
 
-#include <torch/torch.h>
+#include <torch/types.h>
+#include <torch/utils.h>
 
 namespace choreo {
 

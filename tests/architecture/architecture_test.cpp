@@ -457,6 +457,15 @@ TEST(Architecture, TorchStaysInItsModules) {
   EXPECT_EQ(found, modules) << "a module on the list needs no torch, or the includes were not read";
 }
 
+// torch/torch.h takes twice the time of the parts that a file needs.
+TEST(Architecture, FilesIncludeThePartsOfTorchThatTheyUse) {
+  const Includes tests(CHOREO_SOURCE_DIR, {"tests"});
+  for (const Includes* sources : {&Sources(), &tests}) {
+    for (const std::string& file : sources->files())
+      EXPECT_FALSE(sources->Of(file).contains("<torch/torch.h>")) << file;
+  }
+}
+
 // Figures that fall short are to be learnt, not corrected by constants between network and arrival.
 TEST(Architecture, FewConstantsAreTunedBetweenNetworkAndArrival) {
   int constants = 0;

@@ -1,7 +1,7 @@
 #include "model/flow/torch_kinematics.h"
 
 #include <gtest/gtest.h>
-#include <torch/torch.h>
+#include <torch/types.h>
 
 #include "model/core/random.h"
 #include "model/motion/kinematics.h"

@@ -1,7 +1,5 @@
 #include "model/papers/networks/controlled_frames.h"
 
-#include <torch/torch.h>
-
 #include "model/motion/velocity_factors.h"
 
 namespace choreo {

@@ -1,6 +1,6 @@
 #include "model/papers/networks/controllers_checkpoint.h"
 
-#include <torch/torch.h>
+#include <torch/types.h>
 
 #include <utility>
 

@@ -1,6 +1,7 @@
 #include "model/papers/networks/controllers_model.h"
 
-#include <torch/torch.h>
+#include <torch/nn/init.h>
+#include <torch/utils.h>
 
 #include <algorithm>
 

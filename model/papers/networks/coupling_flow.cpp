@@ -1,6 +1,7 @@
 #include "model/papers/networks/coupling_flow.h"
 
-#include <torch/torch.h>
+#include <torch/nn/init.h>
+#include <torch/utils.h>
 
 namespace choreo {
 

@@ -1,6 +1,7 @@
 #include "model/papers/networks/frame_flow_model.h"
 
-#include <torch/torch.h>
+#include <torch/nn/modules/linear.h>
+#include <torch/utils.h>
 
 #include <cmath>
 #include <numbers>

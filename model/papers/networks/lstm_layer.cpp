@@ -1,6 +1,6 @@
 #include "model/papers/networks/lstm_layer.h"
 
-#include <torch/torch.h>
+#include <torch/autograd.h>
 
 #include "model/papers/networks/lstm_cell.h"
 

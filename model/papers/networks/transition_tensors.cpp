@@ -1,7 +1,5 @@
 #include "model/papers/networks/transition_tensors.h"
 
-#include <torch/torch.h>
-
 #include <vector>
 
 #include "model/flow/time_embedding.h"

@@ -1,6 +1,6 @@
 #include "model/papers/samplers/controllers_sampler.h"
 
-#include <torch/torch.h>
+#include <torch/types.h>
 
 #include <algorithm>
 #include <optional>

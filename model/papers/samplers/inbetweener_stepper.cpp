@@ -1,6 +1,6 @@
 #include "model/papers/samplers/inbetweener_stepper.h"
 
-#include <torch/torch.h>
+#include <torch/types.h>
 
 #include <algorithm>
 #include <vector>

@@ -1,7 +1,5 @@
 #include "model/papers/samplers/torch_stepper.h"
 
-#include <torch/torch.h>
-
 #include <algorithm>
 #include <utility>
 

@@ -1,6 +1,6 @@
 #include "model/papers/training/control_losses.h"
 
-#include <torch/torch.h>
+#include <torch/types.h>
 
 #include <span>
 

@@ -1,7 +1,5 @@
 #include "model/papers/training/flow_losses.h"
 
-#include <torch/torch.h>
-
 namespace choreo {
 
 using torch::Tensor;

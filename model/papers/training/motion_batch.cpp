@@ -1,6 +1,6 @@
 #include "model/papers/training/motion_batch.h"
 
-#include <torch/torch.h>
+#include <torch/types.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,8 @@
 #include "model/papers/networks/controllers_model.h"
 
 #include <gtest/gtest.h>
-#include <torch/torch.h>
+#include <torch/types.h>
+#include <torch/utils.h>
 
 #include <nlohmann/json.hpp>
 #include <numbers>
