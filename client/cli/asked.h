@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -25,12 +24,6 @@ struct Asked : DanceManner {
   /// In seconds of the dance; empty if they are those found in the song.
   std::vector<double> beats = {}, downbeats = {};
   ControlRequest controls = {};
-
-  /// Adds the request to a report.
-  void WriteTo(nlohmann::ordered_json* report) const;
-  /// Reads the request in the report called `name`. Reports of earlier versions have fewer members.
-  /// Throws Error(kInvalidArgument) whose field is NAME:MEMBER.
-  static Asked ReadFrom(const nlohmann::ordered_json& report, const std::string& name);
 
   /// Sets a command's song `to` this request's, unless the command line names one, and `start_s` to
   /// this song's start, unless the command line gives it (`says_start`). Looks for the file in the

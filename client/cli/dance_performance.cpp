@@ -217,8 +217,7 @@ Performance Perform(const PlannedDance& plan, const Connection& connection,
   client::DanceResult dance = Dance(connection.client(), config, keys, audio, length.fps, options,
                                     out, *show ? &**show : nullptr);
   WrittenDance written = Examine(dance.header, dance.report, dance.motion, keys.poses);
-  for (size_t i = 0; i < written.keys.size(); ++i)
-    written.keys[i].holds = authoring::HeldKey(keys, i);
+  MarkHolds(keys, &written);
   written.asked = AskedFor(options, dance.header, config);
   written.warnings = faults;
   written.warnings.insert(written.warnings.end(), dance.warnings.begin(), dance.warnings.end());

@@ -1,4 +1,3 @@
-#include <limits>
 #include <memory>
 
 #include "client/authoring/counts.h"
@@ -11,7 +10,6 @@
 #include "client/cli/options.h"
 #include "client/cli/output_file.h"
 #include "client/cli/report.h"
-#include "client/cli/report_keys.h"
 #include "model/core/rounded.h"
 #include "model/formats/motion_file.h"
 
@@ -67,12 +65,10 @@ void CheckReported(const EditOptions& options) {
 void CheckFirstKey(const EditOptions& options) {
   const bool removes = !options.removed.empty();
   if (!removes && options.moves.empty()) return;
-  const auto report = ReadReport(options.report);
-  const ReportKeys keys = KeysOf(report, std::numeric_limits<int64_t>::max(), options.report);
   const std::string& id = removes ? options.removed.front() : options.moves.front().first;
   // Finding the key ID@COUNT requires the song's counts.
   if (!options.song.empty() && id.find('@') != std::string::npos) return;
-  FindKey(keys, id, report["fps"].get<double>(), removes ? "--remove" : "--move", {});
+  FindKey(options.known.keys, id, options.known.fps, removes ? "--remove" : "--move", {});
 }
 
 /// Refuses edits of a project other than of its markers.

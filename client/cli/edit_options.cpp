@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <functional>
 #include <iostream>
+#include <nlohmann/json.hpp>
 #include <sstream>
 #include <type_traits>
 #include <utility>
 
-#include "client/authoring/json_fields.h"
 #include "client/cli/asked_controls.h"
 #include "client/cli/options.h"
 #include "client/cli/report.h"
@@ -52,9 +52,8 @@ void TakeBeats(bool says_start, EditOptions* options) {
 
 /// Whether a dance of `frames` at `fps` has the file's number of frames at the file's rate. Its
 /// last frames, after the file's last frame, may be missing.
-bool IsShortenedTo(const Motion& file, const nlohmann::ordered_json& frames, double fps) {
-  if (!authoring::IsFrameNumber(frames)) return false;
-  const double after_s = (frames.get<double>() - 1) / fps - Duration(file);
+bool IsShortenedTo(const Motion& file, int64_t frames, double fps) {
+  const double after_s = static_cast<double>(frames - 1) / fps - Duration(file);
   return after_s > 0 && after_s * file.fps < 1 - kOnFrame;
 }
 
@@ -97,8 +96,8 @@ void TakeReport(bool says_start, EditOptions* options) {
   };
   const auto number = [](const auto& value) { return value ? InFull(*value) : std::string(); };
   Asked& asked = options->asked;
-  if (!options->report.empty())
-    asked = Asked::ReadFrom(ReadReport(options->report), options->report);
+  if (!options->report.empty()) options->known = ReadReport(options->report);
+  asked = options->known.asked;
   if (asked.TakeSong(options->report, says_start, "new frames do not follow the music",
                      &options->song, &options->song_start_s)) {
     taken.push_back("song " + options->song);
@@ -186,35 +185,43 @@ authoring::Counts ReadCounts(const EditOptions& options, double end_s) {
   return CountsOf(options, ReadSong(options, end_s));
 }
 
-KnownDance ReadKnown(const std::string& path, int64_t frames, double fps, const Motion& file) {
-  const auto report = ReadReport(path);
-  if (report["fps"] != fps) {
+DanceReport FitReport(DanceReport report, const std::string& name, int64_t frames, double fps,
+                      const Motion& file) {
+  if (report.fps != fps) {
     std::ostringstream message;
-    message << report["fps"].dump() << ", but the model runs at " << fps;
-    throw InvalidArgument(path + ":fps", message.str());
+    message << report.fps << ", but the model runs at " << fps;
+    throw InvalidArgument(name + ":fps", message.str());
   }
-  // Older edits wrote no count.
-  if (report.contains("frames") && report["frames"] != frames &&
-      !IsShortenedTo(file, report["frames"], fps)) {
-    throw InvalidArgument(path + ":frames", report["frames"].dump() + ", but the dance has " +
+  const int64_t said = report.frames.value_or(frames);
+  if (said != frames && !IsShortenedTo(file, said, fps)) {
+    throw InvalidArgument(name + ":frames", std::to_string(said) + ", but the dance has " +
                                                 std::to_string(frames) +
                                                 ": this is another dance's report");
   }
-  CheckSketch(path, report, file);
-  const int64_t missing = report.contains("frames") ? report["frames"].get<int64_t>() - frames : 0;
-  return {KeysOf(report, frames, path, missing), ReadWarnings(report, path),
-          Asked::ReadFrom(report, path)};
+  CheckSketch(name, report, file);
+  if (const auto key = report.keys.lower_bound(said); key != report.keys.end()) {
+    throw InvalidArgument(name + ":keyframes", key->second.id + " stands at frame " +
+                                                   std::to_string(key->first) +
+                                                   ", but the dance has " + std::to_string(frames) +
+                                                   ": it is the report of another one");
+  }
+  if (const auto missing = report.keys.lower_bound(frames); missing != report.keys.end()) {
+    ReportKey last = report.keys.rbegin()->second;
+    last.frame = frames - 1;
+    report.keys.erase(missing, report.keys.end());
+    report.keys.insert_or_assign(last.frame, std::move(last));
+  }
+  report.frames = frames;
+  return report;
 }
 
-void WriteKnown(const std::filesystem::path& path, const KnownDance& known, int64_t frames,
-                double fps, const Motion& file) {
-  nlohmann::ordered_json report = {{"frames", frames}, {"fps", fps}};
-  WriteSketch(SketchOf(file, frames, fps), &report);
-  known.asked.WriteTo(&report);
-  report["keyframes"] = nlohmann::ordered_json::array();
-  for (const auto& [frame, key] : known.keys) report["keyframes"].push_back(key);
-  report["warnings"] = WarningsJson(known.warnings);
-  WriteFile(path, report.dump(2) + "\n");
+void WriteReport(const std::filesystem::path& path, DanceReport report, int64_t frames,
+                 const Motion& file) {
+  report.frames = frames;
+  report.sketch = SketchOf(file, frames, report.fps);
+  nlohmann::ordered_json written;
+  report.WriteTo(&written);
+  WriteFile(path, written.dump(2) + "\n");
 }
 
 }  // namespace choreo::cli

@@ -12,7 +12,7 @@
 #include "client/authoring/written_controls.h"
 #include "client/cli/asked.h"
 #include "client/cli/connection.h"
-#include "client/cli/report_keys.h"
+#include "client/cli/dance_report.h"
 #include "client/edit.h"
 
 namespace choreo::cli {
@@ -64,7 +64,8 @@ struct EditOptions : DanceManner {
   std::string join, join_report;
   std::optional<double> gap_s;
 
-  Asked asked;  ///< the request in the dance's report (TakeReport)
+  DanceReport known;  ///< the dance's report, if any (TakeReport)
+  Asked asked;        ///< its request, without the beats that the options replace
 };
 
 /// Fills in settings that the command line does not give from the report, and prints notes about
@@ -81,19 +82,14 @@ std::tuple<client::EditOptions, authoring::Counts> HowToDance(const EditOptions&
                                                               double end_s);
 /// The counts of the song up to `end_s`; none without a song.
 authoring::Counts ReadCounts(const EditOptions& options, double end_s);
-/// The parts of a dance's report that edits keep.
-struct KnownDance {
-  ReportKeys keys = {};
-  std::vector<client::Warning> warnings = {};
-  Asked asked = {};
-};
-/// Reads the known parts of a dance from its report. `frames`, `fps`: the dance's, at the model's
-/// rate; its `file` may have another rate. Prints a note if the dance was edited after the report.
-/// Throws Error(kInvalidArgument), whose field begins with the report's name, for an invalid
-/// report, and for the report of another dance.
-KnownDance ReadKnown(const std::string& report, int64_t frames, double fps, const Motion& file);
-/// Writes the known parts as a report of this motion, for the next edit.
-void WriteKnown(const std::filesystem::path& path, const KnownDance& known, int64_t frames,
-                double fps, const Motion& file);
+/// Fits a report to its dance: `frames` at the model's `fps`, in a `file` whose rate may differ.
+/// Keys in frames that the file lacks at its end move to the last frame. Prints a note if the dance
+/// was edited after the report. Throws Error(kInvalidArgument), whose field begins with the
+/// report's `name`, for the report of another dance.
+DanceReport FitReport(DanceReport report, const std::string& name, int64_t frames, double fps,
+                      const Motion& file);
+/// Writes the report of an edited dance, for the next edit.
+void WriteReport(const std::filesystem::path& path, DanceReport report, int64_t frames,
+                 const Motion& file);
 
 }  // namespace choreo::cli

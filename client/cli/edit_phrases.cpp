@@ -93,7 +93,7 @@ void EditSession::EndWithDance(client::KeyEdit* edit) const {
 
 int64_t EditSession::AfterHold(int64_t frame) const {
   auto key = keys_.lower_bound(frame);
-  for (; key != keys_.end() && HoldsAnother(key->second); ++key) frame = key->first + 1;
+  for (; key != keys_.end() && !key->second.holds.empty(); ++key) frame = key->first + 1;
   return frame;
 }
 
@@ -103,8 +103,8 @@ std::vector<client::KeyPose> EditSession::KeysAsDanced(int64_t first, int64_t en
     danced.push_back({.id = IdAt(key->first),
                       .frame = key->first,
                       .pose = PoseAt(dance_.motion, Seconds(key->first)),
-                      .hit = HitOf(key->second),
-                      .hands = HandsOf(key->second)});
+                      .hit = key->second.hit,
+                      .hands = key->second.hands});
   }
   return danced;
 }
@@ -115,7 +115,7 @@ std::vector<client::KeyEdit> EditSession::Phrase(const char* field, double from_
   const int64_t from = AfterHold(Frame(from_s)), until = AfterHold(Frame(until_s));
   std::vector<client::KeyEdit> phrase;
   for (client::KeyPose& danced : KeysAsDanced(from, until)) {
-    if (HoldsAnother(keys_.at(*danced.frame))) {
+    if (!keys_.at(*danced.frame).holds.empty()) {
       phrase.back().held.push_back(std::move(danced));
     } else {
       phrase.push_back({.key = std::move(danced)});
@@ -123,8 +123,7 @@ std::vector<client::KeyEdit> EditSession::Phrase(const char* field, double from_
   }
   if (!phrase.empty()) return phrase;
   const std::string held =
-      from > Frame(from_s) ? ": \"" + keys_.at(from - 1)["holds"].get<std::string>() + "\" is held"
-                           : std::string();
+      from > Frame(from_s) ? ": \"" + keys_.at(from - 1).holds + "\" is held" : std::string();
   throw InvalidArgument(field, "the report has no key from " + Rounded(from_s) + " s until " +
                                    Rounded(until_s) + " s" + held);
 }
@@ -179,7 +178,7 @@ void EditSession::ClearWay(int64_t first, int64_t end, const std::vector<client:
   const auto stop = keys_.lower_bound(AfterHold(end));
   for (auto key = begin; key != stop; ++key) {
     // Prints one line for a held pose and all keys that hold it.
-    if (!leave.contains(key->first) && !HoldsAnother(key->second)) NoteWay(key->first, what);
+    if (!leave.contains(key->first) && key->second.holds.empty()) NoteWay(key->first, what);
   }
   Forget(begin, stop);
 }

@@ -57,7 +57,7 @@ void EditSession::DanceAnew(const std::string& what, int64_t from, int64_t to) {
   }
   if (keys_.contains(to)) {
     gap.to_id = IdAt(to);
-    gap.to_hit = HitOf(keys_.at(to));
+    gap.to_hit = keys_.at(to).hit;
   }
   const ReportKeys before(keys_.upper_bound(from), keys_.lower_bound(to));
   Refresh(from, to);
@@ -66,7 +66,12 @@ void EditSession::DanceAnew(const std::string& what, int64_t from, int64_t to) {
   Take(is_all ? client::DanceAllAnew(client_, dance_, edit_, gap.keys)
               : client::DanceAnew(client_, dance_, edit_, gap),
        what);
-  for (const auto& [frame, key] : before) CopyMarks(key, &keys_.at(frame));
+  for (const auto& [frame, key] : before) {
+    ReportKey& anew = keys_.at(frame);
+    anew.holds = key.holds;
+    anew.hit = key.hit;
+    anew.hands = key.hands;
+  }
 }
 
 }  // namespace choreo::cli

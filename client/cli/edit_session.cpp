@@ -43,7 +43,7 @@ EditSession::EditSession(const EditOptions& options, const Connection& connectio
   dance_ = ReadDance(options.dance, edit_.model.skeleton);
   frames_ = CountModelFrames(dance_, edit_.model);
   if (!options.report.empty())
-    known_ = ReadKnown(options.report, frames_, edit_.model.fps, dance_.motion);
+    known_ = FitReport(options.known, options.report, frames_, edit_.model.fps, dance_.motion);
   else
     NoteUnknown(options);
   const int64_t end = frames_ + (options.loop ? LoopFrames().added : 0);
@@ -115,13 +115,13 @@ void EditSession::MoveKey(const std::string& id, double to_s) {
   for (const int64_t frame : frames) {
     client::KeyPose& key = frame == frames.front() ? edit.key : edit.held.emplace_back();
     key.id = IdAt(frame);
-    key.hands = options_.hands.empty() ? HandsOf(keys_.at(frame)) : FindHandPose(options_.hands);
+    key.hands = options_.hands.empty() ? keys_.at(frame).hands : FindHandPose(options_.hands);
     key.pose = PoseAt(dance_.motion, Seconds(frame));
     key.frame = frame + by;
     if (options_.in_place)
       key.pose = Here(frames.front() + by).ToWorld(Here(frames.front()).ToLocal(key.pose));
   }
-  edit.key.hit = options_.hit ? options_.hit : HitOf(keys_.at(frames.front()));
+  edit.key.hit = options_.hit ? options_.hit : keys_.at(frames.front()).hit;
   if (!options_.hold.empty()) HoldAsAsked(edit.key.id, to_s, &edit);
   Forget(keys_.find(frames.front()), keys_.upper_bound(frames.back()));
   const std::vector<client::Warning> ended = MakeRoom("--move", &edit);
@@ -175,11 +175,11 @@ std::vector<client::Warning> EditSession::FitHold(client::KeyEdit* edit) {
 
 std::vector<client::Warning> EditSession::EndHold(int64_t frame, const std::string& id) {
   const auto next = keys_.lower_bound(frame);
-  if (next == keys_.begin() || next == keys_.end() || !HoldsAnother(next->second)) return {};
+  if (next == keys_.begin() || next == keys_.end() || next->second.holds.empty()) return {};
   auto held = std::prev(next);
-  while (held != keys_.begin() && HoldsAnother(held->second)) --held;
+  while (held != keys_.begin() && !held->second.holds.empty()) --held;
   auto last = next;
-  while (std::next(last) != keys_.end() && HoldsAnother(std::next(last)->second)) ++last;
+  while (std::next(last) != keys_.end() && !std::next(last)->second.holds.empty()) ++last;
   const auto dropped =
       keys_.upper_bound(std::max(held->first, frame - Frame(authoring::kWayFromHold)));
   const client::Warning warning{
@@ -207,7 +207,7 @@ void EditSession::MakeWay(int64_t first, int64_t last, const std::string& id) {
                 (frame == first ? "it stands there"
                                 : "it is less than " + Rounded(authoring::kTooNear) + " s away"));
     auto end = std::next(key);
-    while (end != keys_.end() && HoldsAnother(end->second)) ++end;
+    while (end != keys_.end() && !end->second.holds.empty()) ++end;
     Forget(key, end);
   }
 }
@@ -229,7 +229,7 @@ void EditSession::Set(const char* field, double at_s, client::KeyEdit edit) {
   }
   if (keys_.contains(edit.to)) {
     edit.to_id = IdAt(edit.to);
-    edit.to_hit = HitOf(keys_.at(edit.to));
+    edit.to_hit = keys_.at(edit.to).hit;
   }
   for (const client::KeyPose& held : edit.held) set_.insert(*held.frame);
   set_.insert(first);
@@ -237,11 +237,11 @@ void EditSession::Set(const char* field, double at_s, client::KeyEdit edit) {
   WarnOfFaults(edit);
   FollowPath(edit.from, edit.to);
   Take(client::SetKey(client_, dance_, edit_, edit), "key " + edit.key.id);
-  MarkHit(edit.key.hit, &keys_[*edit.key.frame]);
-  MarkHands(edit.key.hands, &keys_[*edit.key.frame]);
+  keys_[*edit.key.frame].hit = edit.key.hit;
+  keys_[*edit.key.frame].hands = edit.key.hands;
   for (const client::KeyPose& held : edit.held) {
-    MarkHeld(edit.key.id, &keys_[*held.frame]);
-    MarkHands(held.hands, &keys_[*held.frame]);
+    keys_[*held.frame].holds = edit.key.id;
+    keys_[*held.frame].hands = held.hands;
   }
 }
 
@@ -256,7 +256,7 @@ void EditSession::Free(const std::vector<int64_t>& frames, const std::string& wh
                   .to = frames.back() == frames_ - 1 ? frames_ : After(frames.back())};
   if (keys_.contains(gap.to)) {
     gap.to_id = IdAt(gap.to);
-    gap.to_hit = HitOf(keys_.at(gap.to));
+    gap.to_hit = keys_.at(gap.to).hit;
   }
   Refresh(gap.from, gap.to);
   FollowPath(gap.from, gap.to);
@@ -286,8 +286,8 @@ EditSession::Loop EditSession::LoopFrames() const {
 void EditSession::CloseLoop() {
   const auto [from, added] = LoopFrames();
   for (auto key = keys_.upper_bound(from); key != keys_.end(); key = keys_.erase(key)) {
-    std::cerr << "warning: key " << key->second["id"].get<std::string>() << " at "
-              << told_.Of(key->first) << " makes way for the loop\n";
+    std::cerr << "warning: key " << key->second.id << " at " << told_.Of(key->first)
+              << " makes way for the loop\n";
   }
   if (added > 0) {
     std::cerr << "note: the pose that is held at the end stays; the way back makes the dance "
@@ -304,7 +304,7 @@ void EditSession::Write() const {
               dance_.contacts.empty() ? nullptr : &dance_.contacts);
   std::cout << options_.out << std::endl;
   if (options_.new_report.empty()) return;
-  WriteKnown(options_.new_report, known_, frames_, edit_.model.fps, dance_.motion);
+  WriteReport(options_.new_report, known_, frames_, dance_.motion);
 }
 
 void EditSession::CheckKeys() const {
@@ -418,7 +418,7 @@ void EditSession::Take(client::EditedDance edited, const std::string& what) {
   std::cout << what << ": frames " << edited.first_changed << " to " << edited.end_changed - 1
             << " of " << dance_.motion.frames.size() << " are new";
   for (const client::KeyReached& key : edited.keys) {
-    keys_[key.frame] = KeyJson(key);
+    keys_[key.frame] = {key};
     if (&key != &edited.keys.front()) continue;  // a held pose needs only one figure
     std::cout << "; hit at " << told_.Of(key.frame) << " within "
               << Rounded(1000 * key.final_error_m) << " mm and " << Rounded(key.final_error_deg)

@@ -126,7 +126,7 @@ class EditSession {
   void Forget(ReportKeys::const_iterator begin, ReportKeys::const_iterator end);
   /// Removes keys, none of which is the dance's first frame.
   void Free(const std::vector<int64_t>& frames, const std::string& id);
-  std::string IdAt(int64_t frame) const { return keys_.at(frame)["id"].get<std::string>(); }
+  std::string IdAt(int64_t frame) const { return keys_.at(frame).id; }
   /// The dancer's place at this frame.
   GroundFrame Here(int64_t frame) const;
   /// How to close a loop: the frames after `from`, and `added` ones after the dance's end, lead
@@ -154,7 +154,7 @@ class EditSession {
   int64_t longest_ = 0;
   client::FinishedDance dance_;
   int64_t frames_ = 0;  // at the model's rate
-  KnownDance known_;    // from the report and the edits
+  DanceReport known_;   // with the edits
   ReportKeys& keys_ = known_.keys;
   std::set<int64_t> set_;    // frames of keys that this edit has set
   std::set<int64_t> stale_;  // frames that show keys that are removed or not yet set

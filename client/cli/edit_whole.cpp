@@ -28,8 +28,9 @@ class Whole {
     skeleton_ = std::move(skeleton);
     dance_ = std::move(dance);
     if (report.empty()) return;
-    fps_ = ReadReport(report)["fps"].get<double>();
-    known_ = ReadKnown(report, Frames(), fps_, dance_.motion);
+    const DanceReport read = ReadReport(report);
+    known_.fps = read.fps;
+    known_ = FitReport(read, report, Frames(), read.fps, dance_.motion);
   }
 
   void Cut() {
@@ -46,7 +47,9 @@ class Whole {
     };
     // Starts on a frame of the model, because keys are on these.
     const double start_s =
-        options_.from.empty() ? 0 : std::round(second("--from", options_.from) * fps_) / fps_;
+        options_.from.empty()
+            ? 0
+            : std::round(second("--from", options_.from) * known_.fps) / known_.fps;
     const int64_t first = FirstFrameFrom(start_s, fps);
     const int64_t end =
         options_.until.empty()
@@ -59,10 +62,10 @@ class Whole {
                                 " s, and what stays is to have a frame at least");
     }
     dance_ = client::PartOf(dance_, first, end);
-    const int64_t by = std::llround(start_s * fps_);
+    const int64_t by = std::llround(start_s * known_.fps);
     std::erase_if(known_.keys, [&](const auto& key) { return key.first < by; });
     Shift(-by);
-    known_.asked = known_.asked.From(start_s, fps_);
+    known_.asked = known_.asked.From(start_s, known_.fps);
     std::erase_if(known_.keys, [&](const auto& key) { return key.first >= Frames(); });
     std::erase_if(known_.warnings, [&](const client::Warning& warning) {
       return warning.frame < 0 || warning.frame >= Frames();
@@ -108,7 +111,7 @@ class Whole {
     }
     std::cout << "; the second begins at "
               << Rounded(static_cast<double>(begin) / dance_.motion.fps) << " s\n";
-    next.Shift(std::llround(static_cast<double>(begin) / dance_.motion.fps * fps_));
+    next.Shift(std::llround(static_cast<double>(begin) / dance_.motion.fps * known_.fps));
     known_.keys.merge(next.known_.keys);
     known_.warnings.insert(known_.warnings.end(), next.known_.warnings.begin(),
                            next.known_.warnings.end());
@@ -119,28 +122,18 @@ class Whole {
                 dance_.contacts.empty() ? nullptr : &dance_.contacts);
     std::cout << options_.out << std::endl;
     if (!options_.new_report.empty())
-      WriteKnown(options_.new_report, known_, Frames(), fps_, dance_.motion);
+      WriteReport(options_.new_report, known_, Frames(), dance_.motion);
   }
 
  private:
   /// Frames at the model's rate.
   int64_t Frames() const {
-    return static_cast<int64_t>(std::floor(Duration(dance_.motion) * fps_ + kOnFrame)) + 1;
+    return static_cast<int64_t>(std::floor(Duration(dance_.motion) * known_.fps + kOnFrame)) + 1;
   }
 
   /// Moves keys and beats to later frames.
   void Shift(int64_t by) {
-    ReportKeys keys;
-    for (auto& [frame, key] : known_.keys) {
-      key["frame"] = frame + by;
-      // Removes members that describe the former file.
-      for (const char* member :
-           {"output_frame", "on_output_frame", "output_error_m", "output_error_deg"}) {
-        key.erase(member);
-      }
-      keys.emplace(frame + by, key);
-    }
-    known_.keys = std::move(keys);
+    known_.keys = Moved(std::move(known_.keys), by);
     for (client::Warning& warning : known_.warnings) warning.frame += by;
   }
 
@@ -170,7 +163,7 @@ class Whole {
     } catch (const Error& error) {
       throw options_.controls.InTermsOf(error);
     }
-    ShowWarnings(joined.warnings, {fps_});
+    ShowWarnings(joined.warnings, {known_.fps});
     known_.warnings.insert(known_.warnings.end(), joined.warnings.begin(), joined.warnings.end());
     const auto added = std::ssize(joined.dance.motion.frames) - before;
     const int64_t begin = std::ssize(dance_.motion.frames) + added;
@@ -182,8 +175,7 @@ class Whole {
   std::string path_;
   Skeleton skeleton_;
   client::FinishedDance dance_;
-  KnownDance known_;
-  double fps_ = kModelFps;  // the model's
+  DanceReport known_;
 };
 
 }  // namespace

@@ -24,16 +24,13 @@ WrittenDance Examine(const live::LiveDance& live, const authoring::DanceKeys& ke
   WrittenDance written = Examine(live.header(), live.report() ? *live.report() : CutOff(live),
                                  live.motion(), live.DancedKeys());
   written.is_complete = live.report().has_value();
-  for (size_t i = 0; i < keys.poses.size(); ++i) {
-    for (WrittenKey& key : written.keys)
-      if (key.reached.id == keys.poses[i].id) key.holds = authoring::HeldKey(keys, i);
-  }
+  MarkHolds(keys, &written);
   std::vector<double> beats, downbeats;
   for (const client::Beat& beat : live.beats()) {
     beats.push_back(beat.time_s);
     if (beat.downbeat) downbeats.push_back(beat.time_s);
   }
-  written.beat_hit_chance = BeatHitChance(beats, written.report.frames, live.header().model_fps);
+  written.beat_hit_chance = BeatHitChance(beats, written.figures.frames, written.fps);
   if (asked.song.empty()) {
     asked.beats = std::move(beats);
     asked.downbeats = std::move(downbeats);

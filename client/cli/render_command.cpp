@@ -15,7 +15,6 @@
 #include "client/cli/options.h"
 #include "client/cli/output_file.h"
 #include "client/cli/report.h"
-#include "client/cli/report_keys.h"
 #include "model/core/error.h"
 #include "model/core/joined.h"
 #include "model/core/progress.h"
@@ -46,27 +45,14 @@ struct RenderOptions {
 };
 
 /// A key in a dance's report.
-struct ReportedKey {
+struct DrawnKey {
   double seconds = 0;
   bool holds = false;  ///< whether it only holds the pose of an earlier key
 };
 
-std::vector<ReportedKey> ReportedKeys(const std::string& path) {
-  std::vector<ReportedKey> keys;
-  if (path.empty()) return keys;
-  const auto report = ReadReport(path);
-  for (const auto& key : report["keyframes"])
-    keys.push_back(
-        {key.at("frame").get<double>() / report["fps"].get<double>(), HoldsAnother(key)});
-  return keys;
-}
-
 /// Fills in the song and its start from the report, and prints a note. `says_start`: whether the
 /// command line gives the song's start.
-void TakeSong(bool says_start, RenderOptions* options) {
-  const Asked asked = options->report.empty()
-                          ? Asked()
-                          : Asked::ReadFrom(ReadReport(options->report), options->report);
+void TakeSong(bool says_start, const Asked& asked, RenderOptions* options) {
   double& start_s = options->film.format.song_start_s;
   const double said_s = start_s;
   const bool takes =
@@ -78,27 +64,24 @@ void TakeSong(bool says_start, RenderOptions* options) {
 }
 
 /// The counts of the report, of its song, or of the named song; none if no time is in counts.
-authoring::Counts CountsFor(const RenderOptions& options) {
+authoring::Counts CountsFor(const RenderOptions& options, const Asked& asked) {
   const auto in_counts = [](const std::string& time) {
     return !time.empty() && authoring::ParseTime(time, "time").counts;
   };
   if (!in_counts(options.from) && !in_counts(options.until)) return {};
   std::string song = options.song;
   double start_s = options.film.format.song_start_s;
-  if (!options.report.empty()) {
-    const Asked asked = Asked::ReadFrom(ReadReport(options.report), options.report);
-    if (!asked.beats.empty()) return authoring::CountsFrom(asked.beats, asked.downbeats);
-    asked.TakeSong(options.report, !song.empty(), "there are no counts", &song, &start_s);
-  }
+  if (!asked.beats.empty()) return authoring::CountsFrom(asked.beats, asked.downbeats);
+  asked.TakeSong(options.report, !song.empty(), "there are no counts", &song, &start_s);
   if (song.empty()) return {};
   return authoring::CountsOf(
       authoring::ReadMusic(song, std::numeric_limits<double>::infinity(), start_s));
 }
 
 /// Keeps only the part between --from and --until, with its keys and its part of the song.
-void Cut(RenderOptions* options, Stage* stage, std::vector<ReportedKey>* keys) {
+void Cut(const Asked& asked, RenderOptions* options, Stage* stage, std::vector<DrawnKey>* keys) {
   if (options->from.empty() && options->until.empty()) return;
-  const authoring::Counts counts = CountsFor(*options);
+  const authoring::Counts counts = CountsFor(*options, asked);
   const auto second = [&](const char* option, const std::string& time) {
     return authoring::ParseTime(time, option).In(counts, option);
   };
@@ -127,10 +110,10 @@ void Cut(RenderOptions* options, Stage* stage, std::vector<ReportedKey>* keys) {
   }
   const double first_s = static_cast<double>(first) / fps;
   const double end_s = static_cast<double>(end) / fps;
-  std::erase_if(*keys, [&](const ReportedKey& key) {
+  std::erase_if(*keys, [&](const DrawnKey& key) {
     return key.seconds < first_s - kOnFrame || key.seconds >= end_s;
   });
-  for (ReportedKey& key : *keys) key.seconds -= first_s;
+  for (DrawnKey& key : *keys) key.seconds -= first_s;
   options->sheet.first_s = first_s;
   if (!options->song.empty()) options->film.format.song_start_s += first_s;
 }
@@ -146,7 +129,7 @@ Stage ReadStage(const std::vector<std::string>& paths) {
 }
 
 void DrawSheet(const RenderOptions& options, const Stage& stage,
-               const std::vector<ReportedKey>& keys) {
+               const std::vector<DrawnKey>& keys) {
   ContactSheetOptions sheet = options.sheet;
   for (const auto& [seconds, holds] : keys) {
     if (holds) continue;  // one pose is one key
@@ -162,11 +145,10 @@ void DrawSheet(const RenderOptions& options, const Stage& stage,
   DrawContactSheet(stage, sheet, options.out);
 }
 
-void DrawFilm(const RenderOptions& options, const Stage& stage,
-              const std::vector<ReportedKey>& keys) {
+void DrawFilm(const RenderOptions& options, const Stage& stage, const std::vector<DrawnKey>& keys) {
   VideoOptions film = options.film;
   film.format.song = options.song;
-  for (const ReportedKey& key : keys) film.keys.push_back(key.seconds);
+  for (const DrawnKey& key : keys) film.keys.push_back(key.seconds);
   char end = 0;
   if (std::sscanf(options.size.c_str(), "%5dx%5d%c", &film.format.width, &film.format.height,
                   &end) != 2) {
@@ -185,7 +167,7 @@ void DrawFilm(const RenderOptions& options, const Stage& stage,
   bar->Finish();
 }
 
-void Run(RenderOptions options) {
+void Run(RenderOptions options, const DanceReport& report) {
   if (options.out.empty() && options.video.empty())
     throw InvalidArgument("--out", "is missing, and so is --video: nothing to draw");
   if (options.video.empty() && !options.song.empty())
@@ -200,9 +182,11 @@ void Run(RenderOptions options) {
   Stage stage = ReadStage(options.motions);
   // With several motions, the report belongs to only one of them.
   if (!options.report.empty() && stage.size() == 1)
-    CheckSketch(options.report, ReadReport(options.report), stage.front().motion);
-  std::vector<ReportedKey> keys = ReportedKeys(options.report);
-  Cut(&options, &stage, &keys);
+    CheckSketch(options.report, report, stage.front().motion);
+  std::vector<DrawnKey> keys;
+  for (const auto& [frame, key] : report.keys)
+    keys.push_back({static_cast<double>(frame) / report.fps, !key.holds.empty()});
+  Cut(report.asked, &options, &stage, &keys);
   if (!options.out.empty()) DrawSheet(options, stage, keys);
   Interruption::Check();
   if (!options.video.empty()) DrawFilm(options, stage, keys);
@@ -265,9 +249,12 @@ void AddRenderCommand(CLI::App& program) {
       ->needs(video)
       ->capture_default_str();
   command->callback([options, command] {
-    if (!options->video.empty()) TakeSong(command->count("--song-start") > 0, options.get());
+    const DanceReport report =
+        options->report.empty() ? DanceReport() : ReadReport(options->report);
+    if (!options->video.empty())
+      TakeSong(command->count("--song-start") > 0, report.asked, options.get());
     CheckSongStart(*command, options->song);
-    Run(*options);
+    Run(*options, report);
   });
 }
 

@@ -2,19 +2,10 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <fstream>
 #include <iostream>
-#include <iterator>
 #include <nlohmann/json.hpp>
-
-#include "client/authoring/json_fields.h"
-#include "client/cli/report_keys.h"
-#include "model/core/json_limits.h"
-
 namespace choreo::cli {
 namespace {
-
-constexpr const char* kSketch = "motion_sketch";
 
 template <typename... Values>
 std::string Format(const char* format, Values... values) {
@@ -29,7 +20,7 @@ std::string KeysText(const WrittenDance& dance) {
     size_t keys = 0;
     double distance_m = 0;
     double angle_deg = 0;
-    void Add(const WrittenKey& key, double distance, double angle) {
+    void Add(const ReportKey& key, double distance, double angle) {
       if (key.holds.empty()) ++keys;
       distance_m = std::max(distance_m, distance);
       angle_deg = std::max(angle_deg, angle);
@@ -40,19 +31,20 @@ std::string KeysText(const WrittenDance& dance) {
   };
   Worst in_file, near, between;
   double raw = 0;
-  const client::KeyReached* furthest = nullptr;
+  const ReportKey* furthest = nullptr;
   const auto keys =
-      std::ranges::count_if(dance.keys, [](const WrittenKey& key) { return key.holds.empty(); });
-  for (const WrittenKey& key : dance.keys) {
-    if (key.on_frame) {
-      in_file.Add(key, key.error.position_m, key.error.angle_deg);
+      std::ranges::count_if(dance.keys, [](const auto& key) { return key.second.holds.empty(); });
+  for (const auto& [frame, key] : dance.keys) {
+    const auto& [position_m, angle_deg] = key.in_file->error;
+    if (key.in_file->on_frame) {
+      in_file.Add(key, position_m, angle_deg);
     } else {
-      near.Add(key, key.error.position_m, key.error.angle_deg);
-      between.Add(key, key.reached.final_error_m, key.reached.final_error_deg);
+      near.Add(key, position_m, angle_deg);
+      between.Add(key, key.final_error_m, key.final_error_deg);
     }
     // A pose that is already held needs almost no correction.
-    if (key.holds.empty()) raw += key.reached.raw_error_m / static_cast<double>(keys);
-    if (!furthest || key.reached.correction_m > furthest->correction_m) furthest = &key.reached;
+    if (key.holds.empty()) raw += key.raw_error_m / static_cast<double>(keys);
+    if (!furthest || key.correction_m > furthest->correction_m) furthest = &key;
   }
   std::string text = Format("%zd key pose%s", keys, keys == 1 ? "" : "s");
   if (in_file.keys > 0) {
@@ -63,7 +55,7 @@ std::string KeysText(const WrittenDance& dance) {
     text += Format(
         "%s %zu between the frames of a file at %g fps: hit within %s at the model's %g, the "
         "file's nearest frames are up to %.1f mm off",
-        in_file.keys > 0 ? ";" : ":", between.keys, dance.fps, between.Text().c_str(),
+        in_file.keys > 0 ? ";" : ":", between.keys, dance.file_fps, between.Text().c_str(),
         dance.header.model_fps, 1000 * near.distance_m);
   }
   return text +
@@ -80,28 +72,13 @@ std::string ReportJson(const WrittenDance& dance) {
   const auto or_null = [](const std::optional<double>& value) {
     return value ? nlohmann::ordered_json(*value) : nlohmann::ordered_json();
   };
-  const client::Report& report = dance.report;
+  const client::Report& report = dance.figures;
   nlohmann::ordered_json json;
-  json["frames"] = report.frames;
-  json["fps"] = dance.header.model_fps;
-  json["output_frames"] = dance.frames;
-  json["output_fps"] = dance.fps;
+  json["output_frames"] = dance.file_frames;
+  json["output_fps"] = dance.file_fps;
   json["seed"] = dance.header.seed;
   json["fingerprint"] = dance.header.fingerprint;
-  WriteSketch(dance.sketch, &json);
-  dance.asked.WriteTo(&json);
-  json["keyframes"] = nlohmann::ordered_json::array();
-  for (const WrittenKey& key : dance.keys) {
-    nlohmann::ordered_json& written = json["keyframes"].emplace_back(KeyJson(key.reached));
-    if (!key.holds.empty()) MarkHeld(key.holds, &written);
-    MarkHit(key.hit, &written);
-    MarkHands(key.hands, &written);
-    written["output_frame"] = key.frame;
-    written["on_output_frame"] = key.on_frame;
-    written["output_error_m"] = key.error.position_m;
-    written["output_error_deg"] = key.error.angle_deg;
-  }
-  json["warnings"] = WarningsJson(dance.warnings);
+  dance.WriteTo(&json);
   if (!dance.is_complete) return json.dump(2) + "\n";
   json["measured_from"] = report.measured_from;
   json["log_likelihood"] = or_null(report.log_likelihood);
@@ -124,24 +101,6 @@ std::string ReportJson(const WrittenDance& dance) {
   return json.dump(2) + "\n";
 }
 
-nlohmann::ordered_json KeyJson(const client::KeyReached& key) {
-  return {{"id", key.id},
-          {"frame", key.frame},
-          {"raw_error_m", key.raw_error_m},
-          {"correction_m", key.correction_m},
-          {"final_error_m", key.final_error_m},
-          {"final_error_deg", key.final_error_deg},
-          {"max_acceleration", key.max_acceleration}};
-}
-
-nlohmann::ordered_json WarningsJson(std::vector<client::Warning> warnings) {
-  std::ranges::stable_sort(warnings, {}, &client::Warning::frame);
-  auto json = nlohmann::ordered_json::array();
-  for (const client::Warning& warning : warnings)
-    json.push_back({{"frame", warning.frame}, {"message", warning.message}});
-  return json;
-}
-
 std::string Told(const client::Warning& warning, const ToldTimes& times) {
   return "warning: " + times.Of(warning.frame) + " (frame " + std::to_string(warning.frame) +
          "): " + warning.message;
@@ -151,82 +110,8 @@ void ShowWarnings(const std::vector<client::Warning>& warnings, const ToldTimes&
   for (const client::Warning& warning : warnings) std::cerr << Told(warning, times) << '\n';
 }
 
-void CheckSketch(const std::filesystem::path& path, const nlohmann::ordered_json& report,
-                 const Motion& file) {
-  const MotionSketch known = ReadSketch(report, path);
-  if (known.empty() || !report.contains("frames") || !authoring::IsFrameNumber(report["frames"]))
-    return;
-  const size_t unlike = CountUnlike(
-      known, SketchOf(file, report["frames"].get<int64_t>(), report["fps"].get<double>()));
-  if (unlike == 0) return;
-  const std::string moments =
-      std::to_string(unlike) + " of " + std::to_string(known.size()) + " moments";
-  if (2 * unlike > known.size()) {
-    throw InvalidArgument(path.string(),
-                          "is another dance's report: this one looks otherwise at " + moments);
-  }
-  std::cerr << "note: the dance looks otherwise than " << path.string() << " says at " << moments
-            << ": it was edited since, and what those edits set is not known; their --new-report "
-               "tells\n";
-}
-
-nlohmann::ordered_json ReadReport(const std::filesystem::path& path) {
-  std::ifstream file(path);
-  const std::string text{std::istreambuf_iterator<char>(file), {}};
-  CheckJsonDepth(text, path.string());
-  auto report = nlohmann::ordered_json::parse(text, nullptr, false);
-  if (!report.is_object() || !report.contains("keyframes") || !report["keyframes"].is_array() ||
-      !report.contains("fps") || !report["fps"].is_number() || !(report["fps"] > 0)) {
-    throw InvalidArgument(path.string(), "is not the report of a dance");
-  }
-  for (size_t i = 0; i < report["keyframes"].size(); ++i) {
-    const auto& key = report["keyframes"][i];
-    if (!key.is_object() || !key.contains("frame") || !authoring::IsFrameNumber(key["frame"]) ||
-        !key.contains("id") || !key["id"].is_string()) {
-      throw InvalidArgument(path.string() + ":keyframes[" + std::to_string(i) + "]",
-                            "has no id, or no frame that is a whole number from 0 to " +
-                                std::to_string(authoring::kMaxFrameNumber));
-    }
-    const std::string field = path.string() + ":keyframes[" + std::to_string(i) + "]";
-    if (key.contains("hit")) authoring::JsonHit(key["hit"], field + ".hit");
-    if (key.contains("hands")) authoring::JsonHands(key["hands"], field + ".hands");
-  }
-  return report;
-}
-
-void WriteSketch(const MotionSketch& sketch, nlohmann::ordered_json* report) {
-  (*report)[kSketch] = sketch;
-}
-
-MotionSketch ReadSketch(const nlohmann::ordered_json& report, const std::filesystem::path& path) {
-  if (!report.contains(kSketch)) return {};
-  const auto is_number = [](const auto& value) { return value.is_number(); };
-  if (!report[kSketch].is_array() || !std::ranges::all_of(report[kSketch], is_number))
-    throw InvalidArgument(path.string() + ":" + kSketch, "is not a list of numbers");
-  return report[kSketch].get<MotionSketch>();
-}
-
-std::vector<client::Warning> ReadWarnings(const nlohmann::ordered_json& report,
-                                          const std::filesystem::path& path) {
-  std::vector<client::Warning> warnings;
-  if (!report.contains("warnings")) return warnings;
-  if (!report["warnings"].is_array())
-    throw InvalidArgument(path.string() + ":warnings", "is not a list");
-  for (const auto& warning : report["warnings"]) {
-    if (!warning.is_object() || !warning.contains("frame") ||
-        !authoring::IsFrameNumber(warning["frame"]) || !warning.contains("message") ||
-        !warning["message"].is_string()) {
-      throw InvalidArgument(path.string() + ":warnings[" + std::to_string(warnings.size()) + "]",
-                            "has no message, or no frame that is a whole number from 0 to " +
-                                std::to_string(authoring::kMaxFrameNumber));
-    }
-    warnings.push_back({.frame = warning["frame"], .message = warning["message"]});
-  }
-  return warnings;
-}
-
 std::string ReportText(const WrittenDance& dance) {
-  const client::Report& report = dance.report;
+  const client::Report& report = dance.figures;
   std::string text = Format(
       "%lld frames (%.1f s) by model \"%s\", seed %llu\n", static_cast<long long>(report.frames),
       static_cast<double>(report.frames) / dance.header.model_fps, dance.header.model.c_str(),

@@ -93,13 +93,11 @@ std::vector<int64_t> DelaysOf(const DanceOptions& options, const authoring::Danc
 
 /// Delays a dance's keys and beats; drops keys after the end.
 WrittenDance Later(WrittenDance written, int64_t delay) {
-  const auto move = [&](int64_t& frame) { frame += delay; };
-  const int64_t in_file =
-      std::llround(static_cast<double>(delay) / written.header.model_fps * written.fps);
-  for (WrittenKey& key : written.keys) move(key.reached.frame), key.frame += in_file;
-  for (client::Warning& warning : written.warnings) move(warning.frame);
-  const auto is_over = [&](int64_t frame) { return frame >= written.report.frames; };
-  std::erase_if(written.keys, [&](const WrittenKey& key) { return is_over(key.reached.frame); });
+  const int64_t in_file = std::llround(static_cast<double>(delay) / written.fps * written.file_fps);
+  written.keys = Moved(std::move(written.keys), delay, in_file);
+  for (client::Warning& warning : written.warnings) warning.frame += delay;
+  const auto is_over = [&](int64_t frame) { return frame >= written.figures.frames; };
+  std::erase_if(written.keys, [&](const auto& key) { return is_over(key.first); });
   std::erase_if(written.warnings, [&](const client::Warning& w) { return is_over(w.frame); });
   return written;
 }
@@ -193,7 +191,7 @@ void DanceTogether(const DanceOptions& options, const authoring::Dancers& stage,
     const Eigen::Vector3d apart = dances[i].motion.frames.front().root_position - places[i];
     written.asked.controls =
         OnStage(std::move(written.asked.controls), stage.dancers[i], delays[i], apart);
-    written.sketch = SketchOf(dances[i].motion, written.report.frames, written.header.model_fps);
+    written.sketch = SketchOf(dances[i].motion, written.figures.frames, written.fps);
     WriteFile(reports[i], ReportJson(written));
   }
   for (const fs::path& output : outputs) std::cout << output.string() << std::endl;

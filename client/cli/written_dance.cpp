@@ -15,11 +15,11 @@ int64_t FirstFrameOfFile(const client::Header& header) {
   return static_cast<int64_t>(std::ceil(first - kOnFrame));
 }
 
-WrittenKey Find(const client::Header& header, const Motion& motion, const client::KeyPose& key,
-                const client::KeyReached& reached) {
-  const double place = static_cast<double>(reached.frame) * header.fps / header.model_fps -
+ReportKey::InFile Find(const client::Header& header, const Motion& motion,
+                       const client::KeyPose& key, int64_t frame) {
+  const double place = static_cast<double>(frame) * header.fps / header.model_fps -
                        static_cast<double>(FirstFrameOfFile(header));
-  WrittenKey found{.reached = reached, .hit = key.hit, .hands = key.hands};
+  ReportKey::InFile found;
   found.frame =
       std::clamp<int64_t>(std::llround(place), 0, static_cast<int64_t>(motion.frames.size()) - 1);
   found.on_frame = std::abs(place - static_cast<double>(found.frame)) < kOnFrame;
@@ -30,21 +30,33 @@ WrittenKey Find(const client::Header& header, const Motion& motion, const client
 
 }  // namespace
 
-WrittenDance Examine(const client::Header& header, const client::Report& report,
+WrittenDance Examine(const client::Header& header, const client::Report& figures,
                      const Motion& motion, const std::vector<client::KeyPose>& keys) {
-  WrittenDance dance{.header = header, .report = report};
-  dance.frames = static_cast<int64_t>(motion.frames.size());
-  dance.fps = motion.fps;
-  dance.sketch = SketchOf(motion, report.frames, header.model_fps);
+  WrittenDance dance;
+  dance.header = header;
+  dance.figures = figures;
+  dance.frames = figures.frames;
+  dance.fps = header.model_fps;
+  dance.file_frames = std::ssize(motion.frames);
+  dance.file_fps = motion.fps;
+  dance.sketch = SketchOf(motion, figures.frames, header.model_fps);
   for (const client::KeyPose& key : keys) {
-    const auto reached =
-        std::find_if(report.keys.begin(), report.keys.end(),
-                     [&](const client::KeyReached& candidate) { return candidate.id == key.id; });
-    if (reached == report.keys.end() || motion.frames.empty())
+    const auto reached = std::ranges::find(figures.keys, key.id, &client::KeyReached::id);
+    if (reached == figures.keys.end() || motion.frames.empty())
       throw Error(ErrorCode::kInternal, key.id, "the dance has no such key pose");
-    dance.keys.push_back(Find(header, motion, key, *reached));
+    ReportKey& danced = dance.keys[reached->frame] = {*reached};
+    danced.hit = key.hit;
+    danced.hands = key.hands;
+    danced.in_file = Find(header, motion, key, reached->frame);
   }
   return dance;
+}
+
+void MarkHolds(const authoring::DanceKeys& keys, WrittenDance* dance) {
+  for (size_t i = 0; i < keys.poses.size(); ++i) {
+    for (auto& [frame, key] : dance->keys)
+      if (key.id == keys.poses[i].id) key.holds = authoring::HeldKey(keys, i);
+  }
 }
 
 std::optional<double> BeatHitChance(const std::vector<double>& beats, int64_t frames, double fps) {
@@ -61,15 +73,15 @@ std::optional<double> BeatHitChance(const std::vector<double>& beats, int64_t fr
 }
 
 void CheckKeys(const WrittenDance& dance) {
-  for (const WrittenKey& key : dance.keys) {
-    double distance = key.reached.final_error_m;
-    double angle = key.reached.final_error_deg;
-    if (key.on_frame) {
-      distance = std::max(distance, key.error.position_m);
-      angle = std::max(angle, key.error.angle_deg);
+  for (const auto& [frame, key] : dance.keys) {
+    double distance = key.final_error_m;
+    double angle = key.final_error_deg;
+    if (key.in_file->on_frame) {
+      distance = std::max(distance, key.in_file->error.position_m);
+      angle = std::max(angle, key.in_file->error.angle_deg);
     }
     if (distance <= client::kMaxKeyError_m && angle <= client::kMaxKeyError_deg) continue;
-    throw Error(ErrorCode::kInternal, key.reached.id,
+    throw Error(ErrorCode::kInternal, key.id,
                 "was missed by " + Rounded(1000 * distance) + " mm and " + Rounded(angle) +
                     " degrees, more than " + Rounded(1000 * client::kMaxKeyError_m) + " mm or " +
                     Rounded(client::kMaxKeyError_deg) + " degrees");

@@ -4,46 +4,32 @@
 #include <string>
 #include <vector>
 
+#include "client/authoring/dance_keys.h"
 #include "client/choreo_client.h"
-#include "client/cli/asked.h"
-#include "client/cli/motion_sketch.h"
+#include "client/cli/dance_report.h"
 #include "model/core/grid.h"
-#include "model/motion/kinematics.h"
 
 namespace choreo::cli {
 
-/// A key in the written motion. If the file's rate is not the model's, a key may be between the
-/// file's frames: the dance reaches it, but no frame shows it.
-struct WrittenKey {
-  client::KeyReached reached = {};  ///< from the server
-  int64_t frame = 0;                ///< in the file: the nearest to the key's time
-  bool on_frame = true;             ///< the frame is at the key's time, not only near it
-  PoseError error = {};             ///< the error at that frame
-  /// The id of the key whose pose this key only holds, or empty. Examine leaves it empty.
-  std::string holds = {};
-  std::optional<double> hit = {};      ///< KeyPose::hit
-  std::optional<HandPose> hands = {};  ///< KeyPose::hands
-};
-
 /// A written dance and facts about it.
-struct WrittenDance {
+struct WrittenDance : DanceReport {
   client::Header header = {};
-  client::Report report = {};
+  client::Report figures = {};
   bool is_complete = true;  ///< false: the server was lost, so its figures are missing
-  Asked asked = {};         ///< Examine leaves it empty
-  int64_t frames = 0;       ///< of the file
-  double fps = kModelFps;   ///< of the file
-  MotionSketch sketch = {};
-  std::vector<WrittenKey> keys = {};
-  std::vector<client::Warning> warnings = {};  ///< from the server; Examine leaves them empty
+  int64_t file_frames = 0;  ///< at `file_fps`
+  double file_fps = kModelFps;
   /// The beat hit rate by chance (BeatHitChance). Empty without beats.
   std::optional<double> beat_hit_chance = {};
 };
 
-/// Examines the motion at every key. Throws Error(kInternal), whose field is the key's id, for a
-/// key that is missing in the report.
-WrittenDance Examine(const client::Header& header, const client::Report& report,
+/// Examines the motion at every key. Leaves empty what it is not given: the request, the warnings,
+/// and which keys only hold another one's pose. Throws Error(kInternal), whose field is the key's
+/// id, for a key that is missing in the figures.
+WrittenDance Examine(const client::Header& header, const client::Report& figures,
                      const Motion& motion, const std::vector<client::KeyPose>& keys);
+
+/// Marks the keys that only hold another one's pose.
+void MarkHolds(const authoring::DanceKeys& keys, WrittenDance* dance);
 
 /// The share of `frames`, at `fps`, within two frames of a beat (seconds); empty without beats.
 std::optional<double> BeatHitChance(const std::vector<double>& beats, int64_t frames, double fps);

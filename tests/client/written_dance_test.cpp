@@ -42,9 +42,9 @@ client::Report Hit(int64_t frame) {
 TEST(WrittenDanceTest, MeasuresAKeyInTheMotion) {
   const WrittenDance dance = Examine(HeaderAt(30), Hit(20), Slide(30, 60), {KeyAt(20, 0.2)});
   ASSERT_EQ(dance.keys.size(), 1U);
-  EXPECT_EQ(dance.keys[0].frame, 20);
-  EXPECT_TRUE(dance.keys[0].on_frame);
-  EXPECT_NEAR(dance.keys[0].error.position_m, 0, 1e-9);
+  EXPECT_EQ(dance.keys.at(20).in_file->frame, 20);
+  EXPECT_TRUE(dance.keys.at(20).in_file->on_frame);
+  EXPECT_NEAR(dance.keys.at(20).in_file->error.position_m, 0, 1e-9);
   CheckKeys(dance);
 }
 
@@ -65,9 +65,9 @@ TEST(WrittenDanceTest, CountsFromTheFirstFrameAtTheFilesRate) {
                                              {24.0, int64_t{37}, false}}) {
     const WrittenDance dance =
         Examine(HeaderAt(fps, 15), Hit(61), Slide(fps, 100), {KeyAt(61, 0.01 * frame)});
-    EXPECT_EQ(dance.keys[0].frame, frame) << fps;
-    EXPECT_EQ(dance.keys[0].on_frame, on_frame) << fps;
-    EXPECT_NEAR(dance.keys[0].error.position_m, 0, 1e-9) << fps;
+    EXPECT_EQ(dance.keys.at(61).in_file->frame, frame) << fps;
+    EXPECT_EQ(dance.keys.at(61).in_file->on_frame, on_frame) << fps;
+    EXPECT_NEAR(dance.keys.at(61).in_file->error.position_m, 0, 1e-9) << fps;
   }
 }
 
