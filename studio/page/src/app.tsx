@@ -25,7 +25,7 @@ function posed(): Pose | null {
   const key = studio.keyOf(studio.selectedKey.value);
   if (!key || !studio.audio.paused) return null;
   const away = Math.abs(studio.audio.currentTime - key.frame / studio.dancer.fps);
-  return away < 0.02 ? studio.bent()! : null;
+  return away < 0.02 ? studio.editedPose()! : null;
 }
 
 function View() {
@@ -38,7 +38,7 @@ function View() {
       const made = new Stage(canvas.current!, doll, posed, (places) => {
         if (places.length || marks.peek().length) marks.value = places;
       });
-      made.onPosed = studio.bend;
+      made.onPosed = studio.setEditedPose;
       stage.value = made;
     });
   }), []);
@@ -101,7 +101,7 @@ function FileButton({ label, primary = false }: { label: string; primary?: boole
 }
 
 function Bar() {
-  const { shownSong: song, moments, present, message, isConnected, live } = studio;
+  const { shownSong: song, moments, momentIndex: present, message, isConnected, live } = studio;
   const shown = message.value;
   return (
     <header>
@@ -166,12 +166,12 @@ function useKeyboard() {
         if (!getSelection()?.isCollapsed || !studio.copyKeys()) return;
       }
       else if (event.key === 'Escape') {
-        [studio.selectedKey.value, studio.chosen.value, studio.takes.value] = [null, null, []];
+        [studio.selectedKey.value, studio.selection.value, studio.takes.value] = [null, null, []];
         studio.dropSketch();
         studio.drawing.value = false;
       }
       else if (event.key === 'Delete' && studio.selectedKey.value) studio.removeKey(studio.selectedKey.value);
-      else if (event.key === 'Delete' && studio.chosen.value) studio.removePhrase();
+      else if (event.key === 'Delete' && studio.selection.value) studio.removePhrase();
       else return;
       event.preventDefault();
     };

@@ -9,7 +9,7 @@ import { hintLive, soundingNow } from './live';
 import { liveBeats } from './live_beats';
 import { limits } from './limits';
 import { audio } from './songs';
-import { live, project, shownSong, tell } from './state';
+import { live, project, shownSong, notify } from './state';
 
 const none: Beats = { bar: 4, list: [] };
 const nudge = 0.01; // seconds
@@ -19,7 +19,7 @@ const longest = 3; // seconds from tap to tap
 const tooFew = 'Tap four beats at least.';
 
 const heardBeats = computed(() => {
-  const heard = shownSong.value?.heard;
+  const heard = shownSong.value?.analysis;
   return heard ? counted(heard.beats, heard.counts, heard.beatsInBar, heard.confidence) : none;
 });
 
@@ -27,7 +27,7 @@ export const beats = computed(() => (live.value ? liveBeats.value : project.valu
 
 /// Suggested keys: a pose of the library on a beat, seconds.
 export const suggested = computed((): { time: number; pose: string }[] => {
-  const all = shownSong.value?.heard.suggested ?? [];
+  const all = shownSong.value?.analysis.suggested ?? [];
   if (!project.value?.beats) return all;
   const near = 0.12; // seconds
   const times = beats.value.list.map(({ time }) => time);
@@ -36,9 +36,9 @@ export const suggested = computed((): { time: number; pose: string }[] => {
 });
 
 /// The song's repeated sections.
-export const form = computed(() => sections(shownSong.value?.heard.passages ?? []));
+export const form = computed(() => sections(shownSong.value?.analysis.passages ?? []));
 
-const length = () => shownSong.value!.heard.seconds;
+const length = () => shownSong.value!.analysis.seconds;
 
 /// Dances to other beats. Returns false, and changes nothing, if they are slower than half or
 /// faster than double any permitted tempo.
@@ -46,7 +46,7 @@ function changeBeats(next: Beats): boolean {
   const [found, least, most] = [tempo(next), limits.slowestTempo / 2, 2 * limits.fastestTempo];
   const isDanced = found >= least && found <= most;
   if (isDanced) change({ beats: next });
-  else tell(`${Math.round(found)} beats a minute, must be ${least} to ${most}.`);
+  else notify(`${Math.round(found)} beats a minute, must be ${least} to ${most}.`);
   return isDanced;
 }
 
@@ -94,18 +94,18 @@ function applyTaps() {
   if (times.length > 0 && live.value) return tapLive(times);
   if (times.length === 0 || !shownSong.value || !project.value) return;
   const found = tapped(heardBeats.value, beats.value, times, length());
-  if (!found) return tell(tooFew);
-  if (changeBeats(found)) tell(`${Math.round(tempo(found))} beats a minute, of ${times.length} taps.`);
+  if (!found) return notify(tooFew);
+  if (changeBeats(found)) notify(`${Math.round(tempo(found))} beats a minute, of ${times.length} taps.`);
 }
 audio.addEventListener('pause', applyTaps);
 
 /// Sets the taps' tempo, near which beats of live music are detected.
 function tapLive(times: number[]) {
   const pulse = pulseOf(times);
-  if (!pulse) return tell(tooFew);
+  if (!pulse) return notify(tooFew);
   const tapped = 60 / pulse.period;
   if (tapped < limits.slowestTempo || tapped > limits.fastestTempo)
-    return tell(`${Math.round(tapped)} taps a minute, must be ${limits.slowestTempo} to ${limits.fastestTempo}.`);
+    return notify(`${Math.round(tapped)} taps a minute, must be ${limits.slowestTempo} to ${limits.fastestTempo}.`);
   hintLive({ tempo: tapped, pace: null });
-  tell(`${Math.round(tapped)} beats a minute, of ${times.length} taps.`);
+  notify(`${Math.round(tapped)} beats a minute, of ${times.length} taps.`);
 }

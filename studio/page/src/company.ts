@@ -9,7 +9,7 @@ import { dancer, wire } from './link';
 import type { Motion } from './motion';
 import { dancersMessage } from './project_file';
 import type { Partner, Project, Spot } from './project';
-import { busy, complain, live, moment, project, selectedKey } from './state';
+import { busy, showError, live, moment, project, selectedKey } from './state';
 import type { Moment, Song } from './state';
 
 const beside = 1.4; // metres between a new dancer and the last one
@@ -42,7 +42,7 @@ async function dancesOf(now: Moment, signal: AbortSignal) {
       let known = others.find((other) => other.song === now.song && isSame(other.project, own));
       const count = dances[0].count;
       if (!known || known.motion.count !== count)
-        known = { project: own, song: now.song, motion: await dancer.stream(own, null, -1, { grown: () => {}, noted: () => {} }, signal) };
+        known = { project: own, song: now.song, motion: await dancer.stream(own, null, -1, { onFrames: () => {}, onWarning: () => {} }, signal) };
       if (signal.aborted) return null;
       used.push(known);
       nth = kinds.push(own) - 1;
@@ -66,10 +66,10 @@ async function form(now: Moment, signal: AbortSignal) {
     const danced = await dancesOf(now, signal);
     if (!danced || signal.aborted || danced.dances[0].count === 0) return;
     const clips = danced.dances.map((dance) => dance.toClip());
-    const answer = await wire.ask({ case: 'company', value: requestOf(now.project, { dances: clips, danceOf: danced.danceOf }) });
+    const answer = await wire.request({ case: 'company', value: requestOf(now.project, { dances: clips, danceOf: danced.danceOf }) });
     if (answer.case === 'formation' && !signal.aborted) formation.value = { of: now, reply: answer.value, ...danced };
   } catch (error) {
-    if (!signal.aborted) complain(error);
+    if (!signal.aborted) showError(error);
   } finally {
     busy.value -= 1;
   }
@@ -125,7 +125,7 @@ function secondsLater({ after, inCounts }: Partner): number {
 /// All dancers as files of one format, as the command line writes them.
 export async function writeCompany(name: string, now: Moment) {
   const danced = await dancesOf(now, new AbortController().signal);
-  const answer = await wire.ask({ case: 'company', value: requestOf(now.project, { dances: danced!.dances.map((dance) => dance.toClip()), danceOf: danced!.danceOf, name }) });
+  const answer = await wire.request({ case: 'company', value: requestOf(now.project, { dances: danced!.dances.map((dance) => dance.toClip()), danceOf: danced!.danceOf, name }) });
   return answer.case === 'formation' ? answer.value.files : [];
 }
 

@@ -8,10 +8,10 @@ import { edit, total } from './history';
 import { freeFrame, isTooNear, keyOf } from './keys';
 import { dancer } from './link';
 import { limits } from './limits';
-import { freeId, sorted, spoken } from './project';
+import { freeId, sorted, displayName } from './project';
 import type { Key } from './project';
 import { audio } from './songs';
-import { chosen, complain, live, motion, project, selectedKey, tell } from './state';
+import { selection, showError, live, motion, project, selectedKey, notify } from './state';
 
 const copied = signal<Key[]>([]);
 export const canPaste = computed(() => copied.value.length > 0);
@@ -19,8 +19,8 @@ export const canPaste = computed(() => copied.value.length > 0);
 /// The keys of the selected phrase, from its beginning until before its end, like an eight from one 1 to the next; for an interval between two keys,
 /// both keys.
 export function chosenKeys(): Key[] {
-  if (live.value || !chosen.value) return [];
-  const [from, to] = chosen.value;
+  if (live.value || !selection.value) return [];
+  const [from, to] = selection.value;
   const keys = project.value?.keys.filter(({ frame }) => frame >= from && frame <= to) ?? [];
   const isInterval = keys.length === 2 && keys[0].frame === from && keys[1].frame === to;
   return isInterval ? keys : keys.filter(({ frame }) => frame < to);
@@ -38,7 +38,7 @@ export function copyKeys(): boolean {
   const keys = live.value ? [] : taken();
   if (keys.length === 0) return false;
   copied.value = keys;
-  tell(keys.length === 1 ? 'The key is copied.' : `${keys.length} keys are copied.`);
+  notify(keys.length === 1 ? 'The key is copied.' : `${keys.length} keys are copied.`);
   return true;
 }
 
@@ -66,7 +66,7 @@ export function endIn(id: string) {
   if (!key || live.value) return;
   const beat = beats.value.list.findLast(({ time }) => time >= endHold && time <= last / fps - endHold);
   const frame = Math.round((beat?.time ?? last / fps - endHoldUncounted) * fps);
-  if (frame < limits.keyDistance) return complain(new Error('The dance is too short for an ending.'));
+  if (frame < limits.keyDistance) return showError(new Error('The dance is too short for an ending.'));
   const way = Math.round(limits.wayFromHoldS * fps);
   const stay = project.value.keys.filter((other) => other.frame === 0 || other.frame <= frame - way);
   const gone = project.value.keys.filter((other) => !stay.includes(other));
@@ -74,7 +74,7 @@ export function endIn(id: string) {
   selectedKey.value = end.id;
   edit({ ...project.value, keys: [...stay, end] }, [frame, ...gone.map((other) => other.frame)]);
   const others = gone.filter((other) => other !== key).length;
-  tell(`The dance ends in ${spoken(key.id)}.${others ? ` ${others === 1 ? 'One key makes' : `${others} keys make`} way.` : ''} Undo takes that back.`);
+  notify(`The dance ends in ${displayName(key.id)}.${others ? ` ${others === 1 ? 'One key makes' : `${others} keys make`} way.` : ''} Undo takes that back.`);
 }
 
 function set(keys: Key[], at: number) {
@@ -89,10 +89,10 @@ function set(keys: Key[], at: number) {
     added.push(set);
     all = sorted([...all, set]);
   }
-  if (added.length === 0) return complain(new Error('There is no room for a key here.'));
+  if (added.length === 0) return showError(new Error('There is no room for a key here.'));
   selectedKey.value = added[0].id;
   edit({ ...project.value, keys: all }, added.map(({ frame }) => frame));
-  if (added.length < keys.length) tell(`${keys.length - added.length} of ${keys.length} keys found no room.`);
+  if (added.length < keys.length) notify(`${keys.length - added.length} of ${keys.length} keys found no room.`);
 }
 
 /// Turns and moves a key by the transform that takes the first key to the dancer's place at that frame.

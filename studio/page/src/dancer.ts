@@ -9,9 +9,9 @@ import type { Wire } from './wire';
 /// Receives the progress of a dance.
 export type Watch = {
   /// Called when more frames have arrived.
-  grown: (motion: Motion) => void;
+  onFrames: (motion: Motion) => void;
   /// Receives a warning for people, about a frame or the whole dance.
-  noted: (text: string, frame?: number) => void;
+  onWarning: (text: string, frame?: number) => void;
 };
 
 export class Dancer {
@@ -33,16 +33,16 @@ export class Dancer {
       const call = this.wire.open(
         { case: 'dance', value: { project: this.message(project), history: poses.length ? { poses, firstFrame: BigInt(motion.count) } : undefined } },
         {
-          failed: reject,
-          heard: ({ response }) => {
-            if (response.case === 'resumed') watch.noted('The server was lost; the dance goes on without a seam.');
+          onFailure: reject,
+          onResponse: ({ response }) => {
+            if (response.case === 'resumed') watch.onWarning('The server was lost; the dance goes on without a seam.');
             if (response.case !== 'dance') return;
             const part = response.value.response;
             if (part.case === 'frames') {
               motion.append(part.value);
-              watch.grown(motion);
+              watch.onFrames(motion);
             } else if (part.case === 'event' && part.value.event.case === 'warning') {
-              watch.noted(part.value.event.value.message, Number(part.value.frame));
+              watch.onWarning(part.value.event.value.message, Number(part.value.frame));
             } else if (part.case === 'summary') {
               this.wire.end(call);
               resolve(motion);
@@ -51,7 +51,7 @@ export class Dancer {
         },
       );
       signal.addEventListener('abort', () => {
-        this.wire.say(call, { case: 'cancel', value: {} });
+        this.wire.send(call, { case: 'cancel', value: {} });
         this.wire.end(call);
         resolve(motion);
       });
@@ -62,9 +62,9 @@ export class Dancer {
   /// both end frames. -1 and the number of frames mean the beginning and the end.
   async between(project: Project, motion: Motion, from: number, to: number, count: number, watch: Watch): Promise<Motion[]> {
     const dance: Clip = motion.toClip();
-    const answer = await this.wire.ask({ case: 'retake', value: { project: this.message(project), dance, from: BigInt(from), to: BigInt(to), takes: count } });
+    const answer = await this.wire.request({ case: 'retake', value: { project: this.message(project), dance, from: BigInt(from), to: BigInt(to), takes: count } });
     if (answer.case !== 'takes') return [];
-    for (const { frame, event } of answer.value.warnings) if (event.case === 'warning') watch.noted(event.value.message, Number(frame));
+    for (const { frame, event } of answer.value.warnings) if (event.case === 'warning') watch.onWarning(event.value.message, Number(frame));
     return answer.value.frames.map((frames) => {
       const part = this.nothing();
       part.append(frames);

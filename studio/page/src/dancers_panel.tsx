@@ -11,7 +11,7 @@ function PartnerFields({ partner, nth }: { partner: Partner; nth: number }) {
   const { id, x, z, facing, mirrored, after, inCounts, seed, keys } = partner;
   const set = (what: Partial<Partner>) => studio.changePartner(nth, what);
   const isTaken = (spot: { x: number; z: number }) => studio.project.value.dancers.some((other) => other !== partner && other.x === spot.x && other.z === spot.z);
-  const put = (spot: { x: number; z: number }) => (isTaken(spot) ? studio.tell('Somebody stands there.') : set(spot));
+  const put = (spot: { x: number; z: number }) => (isTaken(spot) ? studio.notify('Somebody stands there.') : set(spot));
   const isPlain = !mirrored && after === 0 && seed === null && keys === null;
   return (
     <fieldset class="partner">

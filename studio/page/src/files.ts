@@ -11,8 +11,8 @@ import { Motion } from './motion';
 import { emptyProject } from './project';
 import { projectMessage, readProject } from './project_file';
 import { dropSketch, photoExtensions, readPhoto } from './photos';
-import { audio, hear, playSilence, songExtensions, tellOfSong } from './songs';
-import { begin, filming, kept, live, message, moment, opened, project, song, takes, tell, welcome, work } from './state';
+import { audio, analyseSong, playSilence, songExtensions, showSongNotes } from './songs';
+import { begin, filming, savedProject, live, message, moment, opened, project, song, takes, notify, welcome, work } from './state';
 import { timeLeft } from './time_left';
 
 /// A file to send.
@@ -37,15 +37,15 @@ export const openFiles = (files: File[]) => work(async () => {
   if (songs.length > 1 || (others.length > 1 && !main) || photos.length > 1)
     throw new Error('One song at a time, one photo, and one project or motion.');
   for (const file of songs) {
-    tell(`Listening to ${file.name} …`);
-    await hear(file.name, await bytesOf(file));
+    notify(`Listening to ${file.name} …`);
+    await analyseSong(file.name, await bytesOf(file));
     message.value = null;
   }
   await begin(async () => {
     if (others.length) await openOther(main ?? others[0], main ? others.filter((file) => file !== main) : []);
     if (others.length === 0 && songs.length === 1) await compose();
   });
-  if (songs.length === 1 && !message.value?.isError) tellOfSong(message.value?.text);
+  if (songs.length === 1 && !message.value?.isError) showSongNotes(message.value?.text);
   for (const file of photos) await readPhoto(file.name, await bytesOf(file));
 });
 
@@ -73,7 +73,7 @@ async function openOther(file: File, keyFiles: File[]) {
 
 async function openProject(name: string, bytes: Uint8Array, keyFiles: SentFile[]) {
   const notes: string[] = [];
-  const answer = await wire.ask({ case: 'read', value: { file: { name, data: bytes }, keyFiles, ...countsOf(beats.value) } });
+  const answer = await wire.request({ case: 'read', value: { file: { name, data: bytes }, keyFiles, ...countsOf(beats.value) } });
   if (answer.case !== 'project') return;
   const read = readProject(answer.value, dancer.fps, skeleton.height);
   const { styles } = welcome.value!.model!;
@@ -81,7 +81,7 @@ async function openProject(name: string, bytes: Uint8Array, keyFiles: SentFile[]
     notes.push(`The model has no style "${read.style}", only ${styles.join(', ') || 'none'}.`);
     read.style = '';
   }
-  if (song.value) read.seconds = song.value.heard.seconds;
+  if (song.value) read.seconds = song.value.analysis.seconds;
   if (!read.seconds) read.seconds = ((read.keys.at(-1)?.frame ?? 60) + 30) / dancer.fps;
   const inside = read.keys.filter(({ frame }) => frame < dancer.frames(read));
   const outside = read.keys.length - inside.length;
@@ -91,19 +91,19 @@ async function openProject(name: string, bytes: Uint8Array, keyFiles: SentFile[]
   if (isOther) notes.push(`It was made to ${read.song}: drop that song, too.`);
   if (!song.value) playSilence(read.seconds);
   danceFrom({ ...read, keys: inside }, -1);
-  if (notes.length) tell(`${name}: ${notes.join(' ')}`);
+  if (notes.length) notify(`${name}: ${notes.join(' ')}`);
 }
 
 async function openMotion(name: string, bytes: Uint8Array) {
-  const answer = await wire.ask({ case: 'open', value: { name, data: bytes } });
+  const answer = await wire.request({ case: 'open', value: { name, data: bytes } });
   if (answer.case !== 'clip') return;
   const motion = Motion.fromClip(answer.value, skeleton.joints, dancer.fps);
   const from = project.value ?? emptyProject(song.value?.name ?? '', 0);
-  const seconds = song.value?.heard.seconds ?? motion.count / dancer.fps;
+  const seconds = song.value?.analysis.seconds ?? motion.count / dancer.fps;
   const beats = moment.value?.song === song.value ? from.beats : null;
   push({ ...from, song: song.value?.name ?? from.song, beats, seconds, keys: [] }, motion, async () => motion);
   if (!song.value) playSilence(seconds);
-  tell(opened(name, `${(motion.count / dancer.fps).toFixed(1)} s of dance`, answer.value.notes));
+  notify(opened(name, `${(motion.count / dancer.fps).toFixed(1)} s of dance`, answer.value.notes));
 }
 
 function download(name: string, data: BlobPart, type = 'application/octet-stream') {
@@ -118,10 +118,10 @@ const stem = () => (project.value?.song || 'dance').replace(/\.[^.]*$/, '');
 
 export const saveProject = () => work(async () => {
   const { value } = project;
-  const answer = await wire.ask({ case: 'write', value: projectMessage(value, dancer.fps) });
+  const answer = await wire.request({ case: 'write', value: projectMessage(value, dancer.fps) });
   if (answer.case !== 'file') return;
   download(`${stem()}.json`, answer.value.data as BlobPart, 'application/json');
-  kept.value = value;
+  savedProject.value = value;
 });
 
 let filmed: AbortController | null = null;
@@ -163,6 +163,6 @@ export const exportAs = (extension: string) => work(async () => {
     for (const file of await writeCompany(`${stem()}.${extension}`, there)) download(file.name, file.data as BlobPart);
     return;
   }
-  const answer = await wire.ask({ case: 'export', value: { name: `${stem()}.${extension}`, clip } });
+  const answer = await wire.request({ case: 'export', value: { name: `${stem()}.${extension}`, clip } });
   if (answer.case === 'file') download(answer.value.name, answer.value.data as BlobPart);
 });

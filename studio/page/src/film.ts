@@ -18,8 +18,8 @@ const codecs: Record<Kind, string[]> = { webm: ['vp09.00.31.08', 'vp8'], mp4: ['
 const soundCodecs: Record<Kind, string[]> = { webm: ['opus'], mp4: ['mp4a.40.2', 'opus'] };
 
 /// The first configuration that this browser supports.
-async function choose<Config>(configs: Config[], asks: (config: Config) => Promise<{ supported?: boolean }>): Promise<Config> {
-  for (const config of configs) if ((await asks(config)).supported) return config;
+async function choose<Config>(configs: Config[], isSupported: (config: Config) => Promise<{ supported?: boolean }>): Promise<Config> {
+  for (const config of configs) if ((await isSupported(config)).supported) return config;
   throw new Error('This browser does not make such films; `choreo render --video` does.');
 }
 

@@ -4,7 +4,7 @@ import { total, danceFrom } from './history';
 import { dancer } from './link';
 import type { Key, Spot, Step } from './project';
 import { audio } from './songs';
-import { chosen, motion, project, tell } from './state';
+import { selection, motion, project, notify } from './state';
 import { signal } from '@preact/signals';
 
 /// Whether the next stroke on the stage draws a path.
@@ -64,7 +64,7 @@ export function onPath(path: Step[], key: Key): Key {
 
 /// The frames for the next stroke: the selected interval, or from the playhead to the end.
 export function stretch(): [number, number] {
-  if (chosen.value) return chosen.value;
+  if (selection.value) return selection.value;
   const from = Math.round(audio.currentTime * dancer.fps);
   return from < total.value - dancer.fps ? [from, total.value - 1] : [0, total.value - 1];
 }
@@ -84,7 +84,7 @@ export function drawPath(stroke: Spot[]) {
   const [from, to] = stretch();
   const before = from > 0 && motion.value.count > from ? motion.value.pose(from).root : null;
   const spots = smooth(before ? [{ x: before[0], z: before[2] }, ...stroke] : stroke);
-  if (lengthOf(stroke) < least) return tell(`That was a stroke of ${lengthOf(stroke).toFixed(1)} m; a path is at least ${least} m long.`);
+  if (lengthOf(stroke) < least) return notify(`That was a stroke of ${lengthOf(stroke).toFixed(1)} m; a path is at least ${least} m long.`);
   walk(spots, from, to);
 }
 
@@ -98,6 +98,6 @@ export const clearPath = () => put([], [project.value.path[0].frame]);
 /// The same path with other frames.
 export function rush(from: number, to: number) {
   const { path } = project.value;
-  if (to - from < shortest) return tell(`A path takes at least ${(shortest / dancer.fps).toFixed(1)} s.`);
+  if (to - from < shortest) return notify(`A path takes at least ${(shortest / dancer.fps).toFixed(1)} s.`);
   put(paced(path, from, to), [path[0].frame, from]);
 }

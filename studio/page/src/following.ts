@@ -8,18 +8,18 @@ import { project, shownSong } from './state';
 
 type Following = Pick<Project, 'dynamics' | 'variation'>;
 
-const wished = signal<Partial<Following>>({});
+const settings = signal<Partial<Following>>({});
 
 /// The setting of the present dance or, without one, of the first dance.
 export const following = computed((): Following => {
-  const { dynamics, variation } = project.value ?? { dynamics: limits.usualMusicDynamics, variation: limits.usualVariation, ...wished.value };
+  const { dynamics, variation } = project.value ?? { dynamics: limits.usualMusicDynamics, variation: limits.usualVariation, ...settings.value };
   return { dynamics, variation };
 });
 
 export function follow(next: Partial<Following>) {
-  if (!project.value) return void (wished.value = { ...wished.value, ...next });
+  if (!project.value) return void (settings.value = { ...settings.value, ...next });
   const song = shownSong.value;
-  const isHeard = !!song && (next.dynamics !== undefined || song.heard.passages.length > 0);
+  const isHeard = !!song && (next.dynamics !== undefined || song.analysis.passages.length > 0);
   if (isHeard) change(next);
   else note(next);
 }

@@ -7,7 +7,7 @@ import { Motion } from './motion';
 import { trimmed } from './project';
 import type { Project } from './project';
 import { returnTo } from './songs';
-import { busy, chosen, complain, danced, live, moment, moments, motion, present, project, selectedKey, song, takes, tell, warnings, work } from './state';
+import { busy, selection, showError, danced, live, moment, moments, motion, momentIndex, project, selectedKey, song, takes, notify, warnings, work } from './state';
 import type { Make, Moment, Warning } from './state';
 
 const mostMoments = 60;
@@ -26,24 +26,24 @@ export const motionAt = (time: number) => {
 };
 
 /// Records warnings at their frames, and shows the others as messages.
-const noted = (list: Signal<Warning[]>) => (text: string, frame?: number) => {
-  if (frame === undefined) return tell(text);
+const recordWarning = (list: Signal<Warning[]>) => (text: string, frame?: number) => {
+  if (frame === undefined) return notify(text);
   if (!list.value.some((known) => known.frame === frame && known.text === text)) list.value = [...list.value, { frame, text }];
 };
 
 /// Makes a moment's motion. Until it is complete, the page shows the frames that `make` has so far.
 function fill(filled: Moment, make: Make) {
-  const show = (grown: Motion) => {
-    filled.motion.value = grown;
-    if (moment.value === filled) danced.value = grown.count;
+  const show = (longer: Motion) => {
+    filled.motion.value = longer;
+    if (moment.value === filled) danced.value = longer.count;
   };
   busy.value += 1;
   filled.isReady = false;
   filled.unmade = null;
-  filled.ready = make({ grown: show, noted: noted(filled.warnings) })
+  filled.ready = make({ onFrames: show, onWarning: recordWarning(filled.warnings) })
     .then(show, (error) => {
       filled.unmade = make;
-      complain(error);
+      showError(error);
     })
     .then(() => {
       busy.value -= 1;
@@ -63,8 +63,8 @@ export async function made(of: Moment): Promise<Motion> {
 /// Adds a moment after the present one, and drops undone ones.
 export function push(next: Project, shown: Motion, make: Make, known: Warning[] = []) {
   takes.value = [];
-  chosen.value = null;
-  const kept = moments.value.slice(Math.max(0, present.value + 2 - mostMoments), present.value + 1);
+  selection.value = null;
+  const kept = moments.value.slice(Math.max(0, momentIndex.value + 2 - mostMoments), momentIndex.value + 1);
   const added: Moment = {
     project: next,
     song: song.value,
@@ -76,7 +76,7 @@ export function push(next: Project, shown: Motion, make: Make, known: Warning[] 
     unmade: null,
   };
   moments.value = [...kept, added];
-  present.value = kept.length;
+  momentIndex.value = kept.length;
   danced.value = shown.count;
   fill(added, make);
 }
@@ -133,10 +133,10 @@ export const undo = () => step(-1);
 export const redo = () => step(1);
 function step(by: number) {
   if (live.value) return;
-  const to = present.value + by;
+  const to = momentIndex.value + by;
   if (to < 0 || to >= moments.value.length) return;
   takes.value = [];
-  present.value = to;
+  momentIndex.value = to;
   danced.value = moment.value.motion.value.count;
   if (!project.value.keys.some(({ id }) => id === selectedKey.value)) selectedKey.value = null;
   const there = moment.value;

@@ -11,10 +11,10 @@ import { addLiveKey, changeLiveKey } from './live';
 import { jointsOf, movable, partsOf, withPart, worked } from './masks';
 import { limits } from './limits';
 import { projectMessage, readKey } from './project_file';
-import { emptyProject, freeId, holdOf, isInHold, sorted, spoken, wishes } from './project';
+import { emptyProject, freeId, holdOf, isInHold, sorted, displayName, settingsOf } from './project';
 import type { Hands, Key } from './project';
 import { audio } from './songs';
-import { complain, danced, live, message, moment, motion, project, selectedKey, sketch, song, tell, work } from './state';
+import { showError, danced, live, message, moment, motion, project, selectedKey, sketch, song, notify, work } from './state';
 import type { Moment } from './state';
 
 const reach = 15; // frames within which a key looks for another place if its own is taken
@@ -24,11 +24,11 @@ export const isTooNear = (a: number, b: number) => Math.abs(a - b) < limits.tooN
 
 /// Key poses from the library on the song's beats, as a first dance.
 export async function compose() {
-  const seconds = song.value?.heard.seconds ?? 20;
+  const seconds = song.value?.analysis.seconds ?? 20;
   const seed = Math.max(1, (project.value?.seed ?? 0) + 1);
   // For the same song, not one of the same name.
   const beats = (moment.value?.song === song.value && project.value?.beats) || null;
-  const answer = await wire.ask({ case: 'compose', value: { seconds, seed: BigInt(seed), beats: beats?.list.map(({ time }) => time) } });
+  const answer = await wire.request({ case: 'compose', value: { seconds, seed: BigInt(seed), beats: beats?.list.map(({ time }) => time) } });
   if (answer.case !== 'keyframes') return;
   const keys = answer.value.keyframes.map((key) => readKey({ ...key, id: key.id.replace(/^\d+-/, '') }, dancer.fps, skeleton.height));
   const named: Key[] = [];
@@ -37,8 +37,8 @@ export async function compose() {
   const empty = emptyProject(song.value?.name ?? '', seconds);
   const before = { ...(project.value ?? empty), ...following.value };
   const markers = moment.value?.song === song.value ? before.markers : [];
-  const wished = wishes(before);
-  danceFrom({ ...empty, ...wished, dancers: before.dancers, apart: before.apart, beats, markers, seed, keys: named.map((key) => onPath(wished.path, key)) }, -1);
+  const settings = settingsOf(before);
+  danceFrom({ ...empty, ...settings, dancers: before.dancers, apart: before.apart, beats, markers, seed, keys: named.map((key) => onPath(settings.path, key)) }, -1);
 }
 
 /// The free frame nearest to a wanted one; null if none is near.
@@ -68,7 +68,7 @@ export function addKey(pose: LibraryPose, at?: number) {
   const old = keyNear(wanted);
   const keys = project.value.keys.filter((key) => key !== old);
   const frame = freeFrame(keys, old?.frame ?? wanted);
-  if (frame === null) return complain(new Error('There is no room for a key here.'));
+  if (frame === null) return showError(new Error('There is no room for a key here.'));
   const root = pose.pose!.rootPosition!;
   let placed: Pose = { root: [root.x, root.y, root.z], rotations: [...pose.pose!.rotations] };
   if (motion.value.count > frame) {
@@ -76,17 +76,17 @@ export function addKey(pose: LibraryPose, at?: number) {
     placed = turned(placed, heading(here));
     placed.root = [here.root[0], root.y, here.root[2]];
   }
-  const key = onPath(project.value.path, { id: freeId(keys, pose.id), frame, pose: placed, hasPlace: true, asks: null, hold: old?.hold ?? 0, hit: old?.hit ?? null, hands: old?.hands ?? null });
+  const key = onPath(project.value.path, { id: freeId(keys, pose.id), frame, pose: placed, hasPlace: true, joints: null, hold: old?.hold ?? 0, hit: old?.hit ?? null, hands: old?.hands ?? null });
   selectedKey.value = key.id;
   edit({ ...project.value, keys: sorted([...keys, key]) }, [frame]);
-  tellOfHold(keys, key);
-  if (old) tell(`${spoken(key.id)} stands in place of ${spoken(old.id)} now. Undo brings that back.`);
+  notifyOfHold(keys, key);
+  if (old) notify(`${displayName(key.id)} stands in place of ${displayName(old.id)} now. Undo brings that back.`);
 }
 
 /// Reports that a hold ends early because a key follows within it.
-function tellOfHold(others: Key[], key: Key) {
+function notifyOfHold(others: Key[], key: Key) {
   const held = others.find((other) => isInHold(other, key.frame));
-  if (held) tell(`${spoken(held.id)} is held no longer than to ${limits.wayFromHoldS} s before ${spoken(key.id)}.`);
+  if (held) notify(`${displayName(held.id)} is held no longer than to ${limits.wayFromHoldS} s before ${displayName(key.id)}.`);
 }
 
 export const keyOf = (id: string | null) => project.value?.keys.find((key) => key.id === id);
@@ -99,9 +99,9 @@ export function moveKey(id: string, to: number) {
   const frame = freeFrame(others, to);
   if (frame === null || frame === key.frame) return;
   edit({ ...project.value, keys: sorted([...others, onPath(project.value.path, { ...key, frame })]) }, [key.frame, frame]);
-  tellOfHold(others, { ...key, frame });
+  notifyOfHold(others, { ...key, frame });
   const near = others.find((other) => isTooNear(other.frame, frame));
-  if (near) tell(`${spoken(key.id)} stands ${(Math.abs(near.frame - frame) / dancer.fps).toFixed(2)} s from ${spoken(near.id)}: too near to be danced well.`);
+  if (near) notify(`${displayName(key.id)} stands ${(Math.abs(near.frame - frame) / dancer.fps).toFixed(2)} s from ${displayName(near.id)}: too near to be danced well.`);
 }
 
 /// Sets for how many frames a key's pose is held, in whole steps. The program refuses poses that
@@ -112,7 +112,7 @@ export const holdKey = (id: string, frames: number) => work(async () => {
   const [{ fps }, before] = [dancer, project.value];
   const hold = holdOf(Math.min(frames + (limits.holdStepS * fps) / 2, limits.holdS * fps), fps);
   const next = { ...before, keys: before.keys.map((other) => (other === key ? { ...key, hold } : other)) };
-  if (hold > key.hold) await wire.ask({ case: 'write', value: projectMessage(next, fps) });
+  if (hold > key.hold) await wire.request({ case: 'write', value: projectMessage(next, fps) });
   if (project.value === before) edit(next, [key.frame]);
 });
 
@@ -138,11 +138,11 @@ export function removeKey(id: string) {
 
 /// A key's pose as displayed; joints that it leaves free are as danced.
 function shown(key: Key): Pose {
-  if (key.hasPlace && !key.asks) return key.pose;
+  if (key.hasPlace && !key.joints) return key.pose;
   const dance = motion.value.count > key.frame || danced.value > key.frame ? motion.value : moment.value.before;
   if (dance.count <= key.frame) return key.pose;
   const there = dance.pose(key.frame);
-  const { rotations } = only(there, key.pose, key.asks);
+  const { rotations } = only(there, key.pose, key.joints);
   return { root: key.hasPlace ? key.pose.root : there.root, rotations };
 }
 
@@ -150,12 +150,12 @@ const isSame = (a: Triple, b: Triple) => a.every((value, i) => Math.abs(value - 
 
 /// Sets another pose for a key. A key without a place gets one if the body was moved, unless it
 /// leaves the hips free.
-export function poseKey(id: string, pose: Pose, asks?: number[] | null) {
+export function poseKey(id: string, pose: Pose, fixed?: number[] | null) {
   const key = keyOf(id);
   if (!key) return;
-  const joints = asks === undefined ? key.asks : asks;
+  const joints = fixed === undefined ? key.joints : fixed;
   const isMoved = !isSame(pose.root, shown(key).root) && (!joints || joints.includes(0));
-  const posed = { ...key, pose, hasPlace: key.hasPlace || isMoved, asks: joints };
+  const posed = { ...key, pose, hasPlace: key.hasPlace || isMoved, joints };
   edit({ ...project.value, keys: project.value.keys.map((other) => (other === key ? posed : other)) }, [key.frame]);
 }
 
@@ -171,16 +171,16 @@ const shownKey = computed(() => {
 });
 
 /// The pose being edited, if any: the photo's, or the selected key's.
-export const bent = () => sketch.value?.pose ?? shownKey.value;
+export const editedPose = () => sketch.value?.pose ?? shownKey.value;
 
-export function bend(pose: Pose) {
+export function setEditedPose(pose: Pose) {
   draft.value = null;
   if (sketch.value) sketch.value = { ...sketch.value, pose };
   else if (selectedKey.value) poseKey(selectedKey.value, pose);
 }
 
-export function bendSoon(pose: Pose) {
-  if (sketch.value || !selectedKey.value) return bend(pose);
+export function previewEditedPose(pose: Pose) {
+  if (sketch.value || !selectedKey.value) return setEditedPose(pose);
   draft.value = { id: selectedKey.value, pose, of: moment.value };
   clearTimeout(resting);
   resting = setTimeout(() => {
@@ -192,37 +192,37 @@ export function bendSoon(pose: Pose) {
 
 /// Mirrors the pose, and the set of joints that a key fixes.
 export function mirror() {
-  const now = bent()!;
+  const now = editedPose()!;
   const key = sketch.value ? undefined : keyOf(selectedKey.value);
   const turnedOver = skeleton.mirrored(now);
-  if (key?.asks) poseKey(key.id, turnedOver, skeleton.twinsOf(key.asks));
-  else bend(only(now, turnedOver, movable.value));
+  if (key?.joints) poseKey(key.id, turnedOver, skeleton.twinsOf(key.joints));
+  else setEditedPose(only(now, turnedOver, movable.value));
 }
 
 /// Uses a pose of the library at the body's place; only its edited parts, unless these are all.
-export function takeFrom({ pose }: LibraryPose) {
-  const now = bent()!;
+export function copyPose({ pose }: LibraryPose) {
+  const now = editedPose()!;
   const from = turned({ root: [now.root[0], pose!.rootPosition!.y, now.root[2]], rotations: pose!.rotations }, heading(now));
-  bend(only(now, from, movable.value));
+  setEditedPose(only(now, from, movable.value));
 }
 
 /// Starts or stops editing a part of the body. A partial key then fixes or frees that part.
 export function workOn(part: number, isOn: boolean) {
   const key = sketch.value ? undefined : keyOf(selectedKey.value);
-  const chosen = (key?.asks ? partsOf(key.asks) : worked.value).map((old, i) => (i === part ? isOn : old));
-  if (!chosen.some(Boolean)) return tell('One part at least is worked on.');
+  const chosen = (key?.joints ? partsOf(key.joints) : worked.value).map((old, i) => (i === part ? isOn : old));
+  if (!chosen.some(Boolean)) return notify('One part at least is worked on.');
   worked.value = chosen;
-  if (key?.asks) ask(key, withPart(key.asks, part, isOn));
+  if (key?.joints) fixJoints(key, withPart(key.joints, part, isOn));
 }
 
 /// Makes a key fix only the edited parts, or the whole body.
-export function askForParts(id: string, isPartial: boolean) {
+export function fixParts(id: string, isPartial: boolean) {
   const key = keyOf(id);
-  if (key) ask(key, isPartial ? jointsOf(worked.value) : null);
+  if (key) fixJoints(key, isPartial ? jointsOf(worked.value) : null);
 }
 
 /// A key that leaves the hips free has no place. The whole body keeps its place.
-function ask(key: Key, asks: number[] | null) {
-  const changed = { ...key, pose: shown(key), asks, hasPlace: !asks || (key.hasPlace && asks.includes(0)) };
+function fixJoints(key: Key, joints: number[] | null) {
+  const changed = { ...key, pose: shown(key), joints, hasPlace: !joints || (key.hasPlace && joints.includes(0)) };
   edit({ ...project.value, keys: project.value.keys.map((other) => (other === key ? changed : other)) }, [key.frame]);
 }

@@ -4,7 +4,7 @@ import { Fragment } from 'preact';
 import type { Pose } from './body';
 import { drag } from './drag';
 import type { LibraryPose } from './generated/studio/studio_pb';
-import { spoken } from './project';
+import { displayName } from './project';
 import * as studio from './studio';
 import { frameUnder } from './scale';
 import { dropPose } from './timeline';
@@ -44,7 +44,7 @@ function Item({ pose, isOwn, pictureOf }: Props & { pose: LibraryPose; isOwn: bo
       <button title={pose.description} disabled={!studio.project.value} onPointerDown={carry(pose)}
         onClick={() => !carried.value && studio.addKey(pose)}>
         <img alt="" draggable={false} src={pictureOf(standing(pose))} />
-        <span>{spoken(pose.id)}</span>
+        <span>{displayName(pose.id)}</span>
       </button>
       {isOwn && <button class="icon forget" aria-label={`Forget ${pose.id}`} title="Forget this pose" onClick={() => studio.forgetPose(pose.id)}>×</button>}
     </li>
@@ -63,7 +63,7 @@ export function Library({ pictureOf }: Props) {
             <button key={stance} title={`Poses ${heading.toLowerCase()}`} disabled={poses.length === 0} onClick={() => goTo(stance)}>{name}</button>
           ))}
         </div>
-        <button disabled={!studio.shownSong.value || !studio.moment.value} onClick={() => void studio.compose().catch(studio.complain)}
+        <button disabled={!studio.shownSong.value || !studio.moment.value} onClick={() => void studio.compose().catch(studio.showError)}
           title="Other poses of the library on the song's beats">New poses</button>
       </div>
       <p class="small">Drag one onto the timeline, or press it to set it at the playhead. Drop a photo to make your own.</p>

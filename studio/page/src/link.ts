@@ -3,15 +3,15 @@ import { Skeleton } from './body';
 import { Dancer } from './dancer';
 import type { Welcome } from './generated/studio/studio_pb';
 import { setLimits } from './limits';
-import { complain, isConnected, welcome } from './state';
+import { showError, isConnected, welcome } from './state';
 import { Wire } from './wire';
 
 export let skeleton: Skeleton;
 export let dancer: Dancer;
 
-let greet: (received: Welcome, isFirst: boolean) => void = () => {};
+let onWelcome: (received: Welcome, isFirst: boolean) => void = () => {};
 /// Registers what to do when the program connects or reconnects.
-export const whenThere = (does: typeof greet) => (greet = does);
+export const whenConnected = (does: typeof onWelcome) => (onWelcome = does);
 
 export const wire = new Wire(
   ({ response }) => {
@@ -22,10 +22,10 @@ export const wire = new Wire(
     setLimits(response.value.limits!);
     welcome.value = response.value;
     isConnected.value = true;
-    greet(response.value, isFirst);
+    onWelcome(response.value, isFirst);
   },
   () => {
-    if (isConnected.value) complain(new Error('The studio program is gone. Trying again each second.'));
+    if (isConnected.value) showError(new Error('The studio program is gone. Trying again each second.'));
     isConnected.value = false;
   },
 );

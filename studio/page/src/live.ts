@@ -12,12 +12,12 @@ import type { Microphone } from './microphone';
 import { Motion } from './motion';
 import { limits } from './limits';
 import { beatAfter, shownAhead } from './live_beats';
-import { emptyProject, freeId, sorted, wishes } from './project';
+import { emptyProject, freeId, sorted, settingsOf } from './project';
 import { keyMessage, projectMessage } from './project_file';
 import type { Key } from './project';
 import { dropSketch } from './photos';
-import { audio, hear } from './songs';
-import { chosen, complain, isConnected, live, message, moment, selectedKey, takes, tell, work } from './state';
+import { audio, analyseSong } from './songs';
+import { selection, showError, isConnected, live, message, moment, selectedKey, takes, notify, work } from './state';
 import type { Live, LiveHint } from './state';
 import { wav } from './wav';
 
@@ -42,7 +42,7 @@ let isLost = false; // the call, before its end
 /// The sound's level, 0 to 1.
 export const level = signal(0);
 
-const say = (value: Extract<Parameters<typeof wire.say>[1], { case: 'live' }>['value']) => wire.say(call, { case: 'live', value });
+const send = (value: Extract<Parameters<typeof wire.send>[1], { case: 'live' }>['value']) => wire.send(call, { case: 'live', value });
 
 const heardSeconds = () => samples / rate;
 const sinceLast = () => Math.min(0.05, (performance.now() - last) / 1000);
@@ -71,64 +71,64 @@ export function hintLive(change?: Partial<LiveHint>) {
   const hint = change ? { ...live.value.hint, ...change } : asHeard;
   const { tempo, pace, later, one } = hint;
   update({ hint });
-  wire.say(call, { case: 'liveBeats', value: { tempo: tempo ?? undefined, halfTime: pace === 'half', doubleTime: pace === 'double', later, downbeat: one ?? undefined } });
+  wire.send(call, { case: 'liveBeats', value: { tempo: tempo ?? undefined, halfTime: pace === 'half', doubleTime: pace === 'double', later, downbeat: one ?? undefined } });
 }
 
 export const startLive = () => work(async () => {
   if (live.value) return;
   audio.pause();
   dropSketch();
-  [message.value, selectedKey.value, chosen.value, takes.value] = [null, null, null, []];
+  [message.value, selectedKey.value, selection.value, takes.value] = [null, null, null, []];
   [pieces, samples, granted, latency, isLost, drawing.value] = [[], 0, 0, 0, false, false];
   const empty = emptyProject(name, shownAhead);
   const before = { ...(moment.value?.project ?? empty), ...following.value };
   const early: Float32Array[] = [];
-  microphone = await listen((piece) => (live.value ? take(piece) : early.push(piece)), () => void stopLive());
+  microphone = await listen((piece) => (live.value ? sendPiece(piece) : early.push(piece)), () => void stopLive());
   rate = microphone.rate;
   const motion = new Motion(skeleton.joints, dancer.fps);
-  live.value = { project: { ...empty, ...wishes(before), path: empty.path, seed: before.seed }, motion, beats: [], hint: asHeard };
+  live.value = { project: { ...empty, ...settingsOf(before), path: empty.path, seed: before.seed }, motion, beats: [], hint: asHeard };
   call = wire.open(
     { case: 'dance', value: { project: projectMessage(live.value.project, dancer.fps), liveMusic: { encoding: AudioEncoding.PCM_F32LE, sampleRate: rate, channels: 1 } } },
-    { heard: ({ response }) => response.case === 'dance' && hearOf(response.value.response, motion), failed },
+    { onResponse: ({ response }) => response.case === 'dance' && receive(response.value.response, motion), onFailure: failed },
   );
-  early.forEach(take);
+  early.forEach(sendPiece);
 });
 
 function failed(error: Error) {
-  complain(error);
+  showError(error);
   isLost = true;
   ended?.();
   if (microphone) void stopLive();
 }
 
-type Part = Extract<Parameters<Parameters<typeof wire.open>[1]['heard']>[0]['response'], { case: 'dance' }>['value']['response'];
+type Part = Extract<Parameters<Parameters<typeof wire.open>[1]['onResponse']>[0]['response'], { case: 'dance' }>['value']['response'];
 
-function hearOf(part: Part, motion: Motion) {
+function receive(part: Part, motion: Motion) {
   if (part.case === 'header') latency = part.value.latencyFrames / part.value.frameRate;
   else if (part.case === 'frames') motion.append(part.value);
   else if (part.case === 'summary') ended?.();
   else if (part.case === 'event') {
     const { event, time } = part.value;
     if (event.case === 'beat') update({ beats: [...live.value!.beats, { time, isDown: event.value.downbeat, sure: event.value.confidence }] });
-    else if (event.case === 'warning') tell(event.value.message);
+    else if (event.case === 'warning') notify(event.value.message);
     else if (event.case === 'keyframeRejected') {
       const { id, reason } = event.value;
-      if (live.value) keep(live.value.project.keys.filter((key) => key.id !== id));
-      tell(`${id} is refused: ${reason}`);
+      if (live.value) setKeys(live.value.project.keys.filter((key) => key.id !== id));
+      notify(`${id} is refused: ${reason}`);
     }
   }
 }
 
 /// Sends a piece of sound: first the grant of frames, then the sound.
-function take(piece: Float32Array) {
+function sendPiece(piece: Float32Array) {
   if (!live.value || !microphone) return;
   pieces.push(piece);
   samples += piece.length;
   last = performance.now();
   level.value = Math.max(level.value * 0.9, ...piece.map(Math.abs));
   granted = Math.round((heardSeconds() + lookAhead) * dancer.fps);
-  say({ request: { case: 'generateUntil', value: { frame: BigInt(granted) } } });
-  say({ request: { case: 'audio', value: { data: new Uint8Array(piece.buffer, piece.byteOffset, piece.byteLength) } } });
+  send({ request: { case: 'generateUntil', value: { frame: BigInt(granted) } } });
+  send({ request: { case: 'audio', value: { data: new Uint8Array(piece.buffer, piece.byteOffset, piece.byteLength) } } });
   if (live.value.project.seconds < heardSeconds() + shownAhead - 1)
     update({ project: { ...live.value.project, seconds: Math.floor(heardSeconds()) + shownAhead } });
   if (heardSeconds() > limits.songS - unheard) void stopLive();
@@ -144,9 +144,9 @@ export const stopLive = () => work(async () => {
   const heardOtherwise = !isAsHeard();
   const isWhole = !isLost && await new Promise<boolean>((resolve) => {
     ended = () => resolve(true);
-    for (const key of project.keys.filter((some) => !keys.includes(some))) say({ request: { case: 'removeKeyframe', value: { id: key.id } } });
-    say({ request: { case: 'endOfAudio', value: {} } });
-    say({ request: { case: 'keyframesComplete', value: {} } });
+    for (const key of project.keys.filter((some) => !keys.includes(some))) send({ request: { case: 'removeKeyframe', value: { id: key.id } } });
+    send({ request: { case: 'endOfAudio', value: {} } });
+    send({ request: { case: 'keyframesComplete', value: {} } });
     setTimeout(() => resolve(false), lastWait);
   });
   ended = null;
@@ -162,9 +162,9 @@ export const stopLive = () => work(async () => {
   live.value = null;
   if (motion.count === 0) throw new Error('Nothing was heard that could be danced to.');
   if (isLost) await connected();
-  await hear(name, wav(all, rate, 16));
+  await analyseSong(name, wav(all, rate, 16));
   push({ ...project, seconds: samples / rate, keys, beats }, motion, async () => motion);
-  tell(isWhole
+  notify(isWhole
     ? 'Export the dance to keep it: its project holds no frames, and becomes another dance when it is opened.'
     : 'The dance ended early; what came of it stays.');
 });
@@ -174,7 +174,7 @@ async function connected() {
   for (let i = 0; i < 120 && !isConnected.value; ++i) await new Promise((resolve) => setTimeout(resolve, 500));
 }
 
-const keep = (keys: Key[]) => update({ project: { ...live.value!.project, keys: sorted(keys) } });
+const setKeys = (keys: Key[]) => update({ project: { ...live.value!.project, keys: sorted(keys) } });
 const earliest = () => granted + 3;
 
 /// Requests a pose at a frame or on a coming beat, wherever the dancer is then.
@@ -184,23 +184,23 @@ export function addLiveKey(pose: LibraryPose, wanted: number | null) {
   let frame = Math.max(earliest(), wanted ?? Math.round(beatAfter(soon) * dancer.fps));
   while (keys.some((key) => Math.abs(key.frame - frame) < limits.keyDistance)) frame += limits.keyDistance;
   const { x, y, z } = pose.pose!.rootPosition!;
-  const key: Key = { id: freeId(keys, pose.id), frame, pose: { root: [x, y, z], rotations: [...pose.pose!.rotations] }, hasPlace: false, asks: null, hold: 0, hit: null, hands: null };
-  say({ request: { case: 'keyframe', value: keyMessage(key) } });
-  keep([...keys, key]);
+  const key: Key = { id: freeId(keys, pose.id), frame, pose: { root: [x, y, z], rotations: [...pose.pose!.rotations] }, hasPlace: false, joints: null, hold: 0, hit: null, hands: null };
+  send({ request: { case: 'keyframe', value: keyMessage(key) } });
+  setKeys([...keys, key]);
 }
 
 /// Moves a future key to another frame; removes it if `to` is null.
 export function changeLiveKey(id: string, to: number | null) {
   const { keys } = live.value!.project;
   const key = keys.find((some) => some.id === id);
-  if (!key || key.frame < earliest()) return tell('This pose is danced already.');
+  if (!key || key.frame < earliest()) return notify('This pose is danced already.');
   const others = keys.filter((some) => some !== key);
   if (to === null) {
-    say({ request: { case: 'removeKeyframe', value: { id } } });
-    return keep(others);
+    send({ request: { case: 'removeKeyframe', value: { id } } });
+    return setKeys(others);
   }
   const moved = { ...key, frame: Math.max(earliest(), to) };
   if (others.some(({ frame }) => Math.abs(frame - moved.frame) < limits.keyDistance)) return;
-  say({ request: { case: 'keyframe', value: keyMessage(moved) } });
-  keep([...others, moved]);
+  send({ request: { case: 'keyframe', value: keyMessage(moved) } });
+  setKeys([...others, moved]);
 }

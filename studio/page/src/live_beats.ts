@@ -6,11 +6,11 @@ import { live } from './state';
 
 export const shownAhead = 8; // seconds of the timeline after now
 
-const heard = computed(() => countedLive(live.value?.beats ?? []));
+const heardBeats = computed(() => countedLive(live.value?.beats ?? []));
 
 /// Future beats, extrapolated from the detected ones.
 const coming = computed((): Beat[] => {
-  const { bar, list } = heard.value;
+  const { bar, list } = heardBeats.value;
   if (list.length < 3) return [];
   const last = list.at(-1)!;
   const period = (last.time - list.at(-3)!.time) / 2;
@@ -20,7 +20,7 @@ const coming = computed((): Beat[] => {
   }));
 });
 
-export const liveBeats = computed((): Beats => ({ bar: heard.value.bar, list: [...heard.value.list, ...coming.value] }));
+export const liveBeats = computed((): Beats => ({ bar: heardBeats.value.bar, list: [...heardBeats.value.list, ...coming.value] }));
 
 /// The first future beat at or after a second; the second itself if there is none.
 export const beatAfter = (seconds: number) => coming.value.find(({ time }) => time >= seconds)?.time ?? seconds;

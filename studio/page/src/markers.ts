@@ -4,12 +4,12 @@ import { dancer } from './link';
 import { freeName, withMarker } from './project';
 import type { Marker } from './project';
 import { audio } from './songs';
-import { live, project, tell } from './state';
+import { live, project, notify } from './state';
 
 function change(old: Marker | null, next: Marker | null) {
   const markers = withMarker(project.value.markers, old, next);
   if (markers) note({ markers });
-  else tell('There is a marker already.');
+  else notify('There is a marker already.');
 }
 
 /// Marks the playhead.

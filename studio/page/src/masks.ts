@@ -1,7 +1,7 @@
 // The joints being edited: those of some parts of the body, or those of a partial key.
 import { computed, signal } from '@preact/signals';
 import { BodyPart } from './generated/choreo/v1/choreography_pb';
-import { parts, spoken } from './project';
+import { parts, displayName } from './project';
 import { project, selectedKey, sketch, welcome } from './state';
 
 /// For each of `parts`: whether it is being edited, unless the key determines that.
@@ -27,12 +27,12 @@ export const partsOf = (chosen: number[] | null): boolean[] => parts.map((_, par
 export function inWords(chosen: number[], names: string[]): string {
   const isWhole = (part: number) => joints().every((joint) => partOf(joint) !== part || chosen.includes(joint));
   const whole = parts.filter((_, part) => isWhole(part));
-  const others = chosen.filter((joint) => !isWhole(partOf(joint))).map((joint) => spoken(names[joint]));
+  const others = chosen.filter((joint) => !isWhole(partOf(joint))).map((joint) => displayName(names[joint]));
   return [...whole, ...others].join(', ');
 }
 
 /// The joints that may change now; null: all.
 export const movable = computed<number[] | null>(() => {
   const key = sketch.value ? undefined : project.value?.keys.find(({ id }) => id === selectedKey.value);
-  return key?.asks ?? jointsOf(worked.value);
+  return key?.joints ?? jointsOf(worked.value);
 });

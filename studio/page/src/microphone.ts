@@ -10,7 +10,7 @@ const refusals: Record<string, string> = {
 };
 
 /// Records until stopped. Calls `lost` if the microphone is unplugged.
-export async function listen(heard: (piece: Float32Array) => void, lost: () => void): Promise<Microphone> {
+export async function listen(onPiece: (piece: Float32Array) => void, onLost: () => void): Promise<Microphone> {
   if (!navigator.mediaDevices) throw new Error('Browsers give the microphone to pages of this machine alone: open the studio as http://127.0.0.1.');
   // Raw sound: processing for speech would remove the music.
   const wanted = { echoCancellation: false, noiseSuppression: false, autoGainControl: false };
@@ -25,9 +25,9 @@ export async function listen(heard: (piece: Float32Array) => void, lost: () => v
   try {
     await context.audioWorklet.addModule('/microphone.js');
     const node = new AudioWorkletNode(context, 'microphone', { numberOfOutputs: 0 });
-    node.port.onmessage = ({ data }) => heard(data as Float32Array);
+    node.port.onmessage = ({ data }) => onPiece(data as Float32Array);
     context.createMediaStreamSource(stream).connect(node);
-    stream.getTracks()[0].onended = lost;
+    stream.getTracks()[0].onended = onLost;
     await context.resume();
   } catch (error) {
     stop();

@@ -4,7 +4,7 @@ import { signal } from '@preact/signals';
 import type { Pose } from './body';
 import { LibraryPoseSchema } from './generated/studio/studio_pb';
 import type { LibraryPose } from './generated/studio/studio_pb';
-import { complain, tell } from './state';
+import { showError, notify } from './state';
 
 const place = 'choreo poses';
 const most = 200;
@@ -38,7 +38,7 @@ function keep(all: Kept[]) {
   try {
     localStorage.setItem(place, JSON.stringify(all));
   } catch {
-    complain(new Error('This browser remembers no poses: they are gone with this page.'));
+    showError(new Error('This browser remembers no poses: they are gone with this page.'));
   }
 }
 
@@ -47,7 +47,7 @@ export function addPose(name: string, pose: Pose) {
   let id = name;
   for (let i = 2; kept.value.some((other) => other.id === id); ++i) id = `${name}_${i}`;
   keep([{ id, height: pose.root[1], rotations: pose.rotations }, ...kept.value].slice(0, most));
-  tell(`Added to the poses as ${id}.`);
+  notify(`Added to the poses as ${id}.`);
 }
 
 export const forgetPose = (id: string) => keep(kept.value.filter((other) => other.id !== id));

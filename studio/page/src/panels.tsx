@@ -7,7 +7,7 @@ import { MarkersPanel } from './markers_panel';
 import { PathPoints } from './path_points';
 import { PhrasePanel } from './phrase_panel';
 import { PoseTools } from './pose_tools';
-import { parts, spoken } from './project';
+import { parts, displayName } from './project';
 import type { Stage } from './stage';
 import * as studio from './studio';
 
@@ -15,12 +15,12 @@ const follows = signal(true);
 const brisk = 2.5; // metres a second; few dancers keep this up
 
 function KeyPanel({ stage }: { stage: Stage | null }) {
-  const pose = studio.bent();
+  const pose = studio.editedPose();
   const key = studio.sketch.value ? null : studio.keyOf(studio.selectedKey.value);
   return (
     <section aria-label="Key">
       <h2>
-        {studio.sketch.value ? 'Photo' : key ? spoken(key.id) : 'Key'}
+        {studio.sketch.value ? 'Photo' : key ? displayName(key.id) : 'Key'}
         {key && <small> {(key.frame / studio.dancer.fps).toFixed(2)} s</small>}
       </h2>
       {pose
@@ -32,7 +32,7 @@ function KeyPanel({ stage }: { stage: Stage | null }) {
 
 function TakesPanel() {
   const takes = studio.takes.value;
-  const interval = studio.chosen.value;
+  const interval = studio.selection.value;
   const { fps } = studio.dancer ?? { fps: 30 };
   return (
     <section aria-label="Takes">

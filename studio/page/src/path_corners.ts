@@ -3,7 +3,7 @@ import { computed, signal } from '@preact/signals';
 import { heading } from './body';
 import { away, clearPath, least, lengthOf, stretch, walk } from './floor_path';
 import type { Spot, Step } from './project';
-import { live, moment, motion, project, tell } from './state';
+import { live, moment, motion, project, notify } from './state';
 import type { Moment } from './state';
 
 const near = 0.08; // metres; smaller bends are not corners
@@ -61,7 +61,7 @@ function take() {
   if (last.spots.length === 0 && project.value.path.length > 0) clearPath();
   // A single point waits for a second one.
   if (last.spots.length < 2) return;
-  if (lengthOf(last.spots) < least) return void tell(`This path has ${lengthOf(last.spots).toFixed(1)} m; one that is walked has ${least} at least.`);
+  if (lengthOf(last.spots) < least) return void notify(`This path has ${lengthOf(last.spots).toFixed(1)} m; one that is walked has ${least} at least.`);
   walk(last.spots, last.from, last.to);
   walked.value = { path: project.value.path, spots: last.spots };
 }

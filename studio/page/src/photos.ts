@@ -3,7 +3,7 @@ import type { Pose as Detector, Results } from '@mediapipe/pose';
 import type { Pose, Triple } from './body';
 import { wire } from './link';
 import { audio } from './songs';
-import { message, selectedKey, sketch, takes, tell, welcome, work } from './state';
+import { message, selectedKey, sketch, takes, notify, welcome, work } from './state';
 
 const photoTypes: Record<string, string> = { jpg: 'image/jpeg', jpeg: 'image/jpeg', png: 'image/png', webp: 'image/webp' };
 export const photoExtensions = Object.keys(photoTypes);
@@ -67,14 +67,14 @@ export const readPhoto = (name: string, bytes: Uint8Array) => work(async () => {
     throw new Error(`${name}: photos need @mediapipe/pose, which is not here. \`make studio\` fetches it where there is npm; start the studio anew then.`);
   if (isLooking) throw new Error('One photo after the other.');
   isLooking = true;
-  tell(`Looking for somebody in ${name} …`);
+  notify(`Looking for somebody in ${name} …`);
   const url = URL.createObjectURL(new Blob([bytes as BlobPart], { type: photoTypes[name.split('.').at(-1)!.toLowerCase()] }));
   try {
     const canvas = await draw(name, url);
     const seen = await look(canvas);
     if (!seen?.poseWorldLandmarks) throw new Error(`${name}: nobody was found in it. One person, seen from head to foot, is found best.`);
     const landmarks = seen.poseWorldLandmarks.map(({ x, y, z, visibility = 1 }) => ({ x, y, z, visibility: Math.min(1, Math.max(0, visibility)) }));
-    const answer = await wire.ask({ case: 'landmarks', value: { name, data: new TextEncoder().encode(JSON.stringify(landmarks)) } });
+    const answer = await wire.request({ case: 'landmarks', value: { name, data: new TextEncoder().encode(JSON.stringify(landmarks)) } });
     if (answer.case !== 'pose') return;
     const { id, pose } = answer.value;
     const root = pose!.rootPosition!;

@@ -8,7 +8,7 @@ const pull = (event: PointerEvent, stays: number) =>
   drag(event, ({ clientX, altKey }) => studio.choosePhrase(stays, frameAt(timeUnder(clientX), altKey)));
 
 export function PhraseBand() {
-  const phrase = studio.chosen.value;
+  const phrase = studio.selection.value;
   if (!phrase || !content.value) return null;
   const { fps } = studio.dancer;
   const grip = (name: string, end: 0 | 1) => {

@@ -4,7 +4,7 @@ import * as studio from './studio';
 
 export function PhrasePanel() {
   const { value } = studio.project;
-  const phrase = studio.chosen.value;
+  const phrase = studio.selection.value;
   const keys = studio.chosenKeys().length;
   const { fps } = studio.dancer ?? { fps: 30 };
   return (
@@ -30,7 +30,7 @@ export function PhrasePanel() {
         {phrase && <>
           <button disabled={keys === 0} title="Take its keys out (Delete)" onClick={studio.removePhrase}>Remove keys</button>
           <button title="As large on the timeline as fits" onClick={() => show(...phrase)}>Zoom to it</button>
-          <button title="Choose nothing (Escape)" onClick={() => (studio.chosen.value = null)}>Leave</button>
+          <button title="Choose nothing (Escape)" onClick={() => (studio.selection.value = null)}>Leave</button>
         </>}
       </div>
     </section>

@@ -11,7 +11,7 @@ import { limits } from './limits';
 import { freeId, holdOf, sorted } from './project';
 import type { Key } from './project';
 import { audio } from './songs';
-import { chosen, complain, live, project, selectedKey, takes, tell } from './state';
+import { selection, showError, live, project, selectedKey, takes, notify } from './state';
 
 const usual = 8; // counts
 const usualSeconds = 4; // without counts
@@ -26,7 +26,7 @@ export function choosePhrase(a: number, b: number) {
   const [from, to] = [Math.max(0, Math.min(a, b)), Math.min(Math.max(a, b), total.value)];
   if (live.value || to - from < limits.keyDistance) return;
   takes.value = [];
-  chosen.value = [from, to];
+  selection.value = [from, to];
 }
 
 export const chooseAll = () => choosePhrase(0, total.value);
@@ -43,7 +43,7 @@ export function chooseEight() {
 /// Changes keys and keeps the selection.
 function change(keys: Key[], touched: number[], phrase: [number, number]) {
   edit({ ...project.value, keys: sorted(keys) }, touched);
-  chosen.value = phrase;
+  selection.value = phrase;
 }
 
 /// Mirrors the phrase, relative to the dancer's place and facing at its first key.
@@ -60,18 +60,18 @@ export function mirrorPhrase() {
       first.pose.root[0] + far * ahead[0] + wide * side[0], key.pose.root[1], first.pose.root[2] + far * ahead[1] + wide * side[1],
     ];
     const pose = turned(skeleton.mirrored(key.pose), 2 * (axis - heading(key.pose)));
-    return onPath(project.value.path, { ...key, pose: { ...pose, root: key.hasPlace ? root : key.pose.root }, asks: key.asks && skeleton.twinsOf(key.asks) });
+    return onPath(project.value.path, { ...key, pose: { ...pose, root: key.hasPlace ? root : key.pose.root }, joints: key.joints && skeleton.twinsOf(key.joints) });
   });
   const others = project.value.keys.filter((key) => !keys.includes(key));
-  change([...others, ...mirrored], keys.map(({ frame }) => frame), chosen.value!);
+  change([...others, ...mirrored], keys.map(({ frame }) => frame), selection.value!);
 }
 
 export function removePhrase() {
   const keys = chosenKeys();
   if (keys.length === 0) return;
   selectedKey.value = null;
-  change(project.value.keys.filter((key) => !keys.includes(key)), keys.map(({ frame }) => frame), chosen.value!);
-  tell(`${keys.length === 1 ? 'One key is' : `${keys.length} keys are`} taken out. Undo brings them back.`);
+  change(project.value.keys.filter((key) => !keys.includes(key)), keys.map(({ frame }) => frame), selection.value!);
+  notify(`${keys.length === 1 ? 'One key is' : `${keys.length} keys are`} taken out. Undo brings them back.`);
 }
 
 /// Maps a second of the phrase to its repetition, which begins at the phrase's end, on the same count.
@@ -93,14 +93,14 @@ export function repeatPhrase(withAnotherEnding = false) {
   const keys = chosenKeys();
   if (keys.length === 0 || (withAnotherEnding && keys.length < 2)) return;
   const { fps } = dancer;
-  const phrase = chosen.value!;
+  const phrase = selection.value!;
   const again = repeated(phrase, keys.at(-1)!.frame);
   const frameOfKey = ({ frame }: Key) => frameOf(again(frame / fps));
   const [from, to] = phrase.map((frame) => frameOf(again(frame / fps)));
   const [begin, ending] = [frameOfKey(keys[0]), frameOfKey(keys.at(-1)!)];
   const most = total.value;
   const set = (withAnotherEnding ? keys.slice(0, -1) : keys).filter((key) => frameOfKey(key) < most);
-  if (set.length === 0 || (withAnotherEnding && ending >= most)) return complain(new Error('The dance ends before the phrase could come again.'));
+  if (set.length === 0 || (withAnotherEnding && ending >= most)) return showError(new Error('The dance ends before the phrase could come again.'));
   const [first, last] = [Math.min(from, begin - limits.keyDistance + 1), Math.max(to, ending + limits.keyDistance)];
   const stay = project.value.keys.filter(({ frame }) => frame < first || frame >= last);
   const makeWay = project.value.keys.filter((key) => !stay.includes(key));
@@ -112,9 +112,9 @@ export function repeatPhrase(withAnotherEnding = false) {
   if (withAnotherEnding) {
     audio.pause();
     audio.currentTime = ending / fps;
-    return tell('The phrase comes again but for its last key: press a pose, and it ends in that.');
+    return notify('The phrase comes again but for its last key: press a pose, and it ends in that.');
   }
-  tellLeftOut(keys.length - set.length, keys.length);
+  notifyOfLeftOut(keys.length - set.length, keys.length);
 }
 
 /// Stretches the phrase's keys about its beginning, in counts: 2 is half time, 0.5 double time.
@@ -123,7 +123,7 @@ export function stretchPhrase(times: number) {
   const keys = chosenKeys();
   if (keys.length === 0) return;
   const { fps } = dancer;
-  const [from, to] = chosen.value!;
+  const [from, to] = selection.value!;
   const beatTimes = timesOf();
   const counted = (frame: number) => placeAmong(frame / fps, beatTimes);
   const stretched = (frame: number) =>
@@ -132,16 +132,16 @@ export function stretchPhrase(times: number) {
   const set = keys.map((key) => onPath(project.value.path, {
     ...key, frame: stretched(key.frame), hold: holdOf(times * key.hold, fps),
   })).filter(({ frame }) => frame < most);
-  if (set.some(({ frame }, i) => i > 0 && frame - set[i - 1].frame < limits.keyDistance)) return complain(new Error('Its keys would stand too close together.'));
+  if (set.some(({ frame }, i) => i > 0 && frame - set[i - 1].frame < limits.keyDistance)) return showError(new Error('Its keys would stand too close together.'));
   const touched = keys.filter((key, i) => set[i]?.frame !== key.frame);
-  if (touched.length === 0) return tell('The phrase has no key behind its beginning.');
+  if (touched.length === 0) return notify('The phrase has no key behind its beginning.');
   const begin = Math.min(from, (set[0]?.frame ?? from) - limits.keyDistance + 1);
   const end = Math.max(to, stretched(to), (set.at(-1)?.frame ?? 0) + limits.keyDistance);
   const stay = project.value.keys.filter((key) => !keys.includes(key) && (key.frame < begin || key.frame >= end));
   const makeWay = project.value.keys.filter((key) => !keys.includes(key) && !stay.includes(key));
   const moved = set.filter((key, i) => key.frame !== keys[i].frame);
   change([...stay, ...set], [...touched, ...makeWay, ...moved].map(({ frame }) => frame), [from, Math.min(stretched(to), most)]);
-  tellLeftOut(keys.length - set.length, keys.length);
+  notifyOfLeftOut(keys.length - set.length, keys.length);
 }
 
-const tellLeftOut = (left: number, of: number) => left > 0 && tell(`${left} of ${of} keys would come behind the end, and are left out.`);
+const notifyOfLeftOut = (left: number, of: number) => left > 0 && notify(`${left} of ${of} keys would come behind the end, and are left out.`);

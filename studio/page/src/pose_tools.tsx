@@ -7,7 +7,7 @@ import { HandsTool } from './hands_tool';
 import { HitTool } from './hit_tool';
 import { degreesOf, withDegrees } from './joint_angles';
 import { NumberField } from './number_field';
-import { parts, spoken } from './project';
+import { parts, displayName } from './project';
 import { canPull, floorHandle, handles } from './reach';
 import type { Stage } from './stage';
 import * as studio from './studio';
@@ -27,7 +27,7 @@ const joint = signal('left_shoulder');
 /// The parts being edited, and whether the key is limited to them.
 function Parts() {
   const key = studio.sketch.value ? undefined : studio.keyOf(studio.selectedKey.value);
-  const chosen = key?.asks ? studio.partsOf(key.asks) : studio.worked.value;
+  const chosen = key?.joints ? studio.partsOf(key.joints) : studio.worked.value;
   return (
     <>
       <div class="parts" role="group" aria-label="Parts that are worked on">
@@ -37,12 +37,12 @@ function Parts() {
       </div>
       {key && (
         <label class="check">
-          <input type="checkbox" checked={!!key.asks} disabled={!key.asks && chosen.every(Boolean)}
-            onChange={(event) => studio.askForParts(key.id, event.currentTarget.checked)} />
+          <input type="checkbox" checked={!!key.joints} disabled={!key.joints && chosen.every(Boolean)}
+            onChange={(event) => studio.fixParts(key.id, event.currentTarget.checked)} />
           Ask for these parts alone
         </label>
       )}
-      {key?.asks && <p class="small">The key asks for {studio.inWords(key.asks, studio.skeleton.names)}. The model chooses the rest.</p>}
+      {key?.joints && <p class="small">The key asks for {studio.inWords(key.joints, studio.skeleton.names)}. The model chooses the rest.</p>}
     </>
   );
 }
@@ -53,11 +53,11 @@ function TakeFrom() {
   const all = [...own, ...(studio.welcome.value?.poses ?? [])];
   return (
     <select aria-label="Take these parts from a pose" value="" onChange={(event) => {
-      studio.takeFrom(all[Number(event.currentTarget.value)]);
+      studio.copyPose(all[Number(event.currentTarget.value)]);
       event.currentTarget.value = '';
     }}>
       <option value="" disabled>{studio.movable.value ? 'Take these parts from …' : 'Take it from a pose …'}</option>
-      {all.map((pose, i) => <option key={i} value={i}>{spoken(pose.id)}</option>)}
+      {all.map((pose, i) => <option key={i} value={i}>{displayName(pose.id)}</option>)}
     </select>
   );
 }
@@ -73,15 +73,15 @@ function Joints({ pose }: { pose: Pose }) {
   const degrees = degreesOf(turn, pose, at);
   const isHinge = turn.hinge.length > 0;
   const field = (label: string, axis: string, i: number) => (
-    <NumberField key={`${name} ${label}`} label={label} name={`${spoken(name)}, ${axis}`} value={degrees[i]} low={low} high={high} step={1}
-      rule={`The ${spoken(name)} ${isHinge ? `bends ${low} to ${high} degrees` : `turns ${low} to ${high} degrees about ${label}`}`}
-      set={(value) => studio.bendSoon(withDegrees(turn, pose, at, degrees.map((old, axis) => (axis === i ? value : old))))} />
+    <NumberField key={`${name} ${label}`} label={label} name={`${displayName(name)}, ${axis}`} value={degrees[i]} low={low} high={high} step={1}
+      rule={`The ${displayName(name)} ${isHinge ? `bends ${low} to ${high} degrees` : `turns ${low} to ${high} degrees about ${label}`}`}
+      set={(value) => studio.previewEditedPose(withDegrees(turn, pose, at, degrees.map((old, axis) => (axis === i ? value : old))))} />
   );
   return (
     <details>
       <summary>Joints in degrees</summary>
       <select aria-label="Joint" value={name} onChange={(event) => (joint.value = event.currentTarget.value)}>
-        {open.map((one) => <option key={one} value={one}>{spoken(one)}</option>)}
+        {open.map((one) => <option key={one} value={one}>{displayName(one)}</option>)}
       </select>
       <div class="row">
         {isHinge ? field('bends', 'degrees that it bends', 0)
@@ -117,7 +117,7 @@ function Handles({ stage }: { stage: Stage | null }) {
 }
 
 export function PoseTools({ stage, pose }: { stage: Stage | null; pose: Pose }) {
-  const change = (made: (pose: Pose) => Pose) => () => studio.bend(made(studio.bent()!));
+  const change = (made: (pose: Pose) => Pose) => () => studio.setEditedPose(made(studio.editedPose()!));
   const key = studio.sketch.value ? null : studio.selectedKey.value;
   const item = studio.keyOf(key);
   // With fixed hips the whole body can neither turn nor sink.

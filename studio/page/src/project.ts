@@ -12,11 +12,11 @@ export type Step = Spot & { frame: number };
 export const handPoses = ['rest', 'relaxed', 'open', 'fist', 'point'] as const;
 export type Hands = (typeof handPoses)[number];
 
-/// A key pose. Without a place it fixes only the pose, wherever the dancer is. `asks`: the joints
+/// A key pose. Without a place it fixes only the pose, wherever the dancer is. `joints`: those
 /// that it fixes, in order; null: all. `hold`: frames for which its pose is held. `hit`: how hard
 /// it is hit, 0 to `limits.hit`; null: it is danced through. `hands`: null: unset; hands move on to
 /// the next key that sets them.
-export type Key = { id: string; frame: number; pose: Pose; hasPlace: boolean; asks: number[] | null; hold: number; hit: number | null; hands: Hands | null };
+export type Key = { id: string; frame: number; pose: Pose; hasPlace: boolean; joints: number[] | null; hold: number; hit: number | null; hands: Hands | null };
 
 /// A named moment.
 export type Marker = { frame: number; name: string };
@@ -66,7 +66,7 @@ export type Project = {
 };
 
 /// The settings that are independent of music and keys.
-export const wishes = ({ style, dynamics, variation, velocities, path }: Project) => ({ style, dynamics, variation, velocities, path });
+export const settingsOf = ({ style, dynamics, variation, velocities, path }: Project) => ({ style, dynamics, variation, velocities, path });
 
 export const emptyProject = (song: string, seconds: number): Project => ({
   song,
@@ -109,7 +109,7 @@ export const trimmed = (keys: Key[], frames: number, fps: number) =>
   });
 
 /// An id or a joint's name, for people.
-export const spoken = (name: string) => name.replaceAll('_', ' ');
+export const displayName = (name: string) => name.replaceAll('_', ' ');
 
 /// An unused name: "kick", "kick-2", ...
 export const freeName = (names: string[], name: string) => {

@@ -16,7 +16,7 @@ export const keyMessage = (key: Key): MessageInitShape<typeof KeyframeSchema> =>
   id: key.id,
   when: { case: 'frame', value: BigInt(key.frame) },
   pose: poseMessage(key.pose, key.hasPlace),
-  mask: key.asks ? { joints: key.asks } : undefined,
+  mask: key.joints ? { joints: key.joints } : undefined,
   hit: key.hit ?? undefined,
   hands: key.hands ? handPoses.indexOf(key.hands) + 1 : 0,
 });
@@ -29,49 +29,49 @@ export function readKey({ id, when, pose, mask, hit, hands }: Keyframe, fps: num
     frame: when.case === 'frame' ? Number(when.value) : Math.round(Number(when.value) * fps),
     pose: { root: root ? [root.x, root.y, root.z] : [0, height, 0], rotations: pose!.rotations },
     hasPlace: !!root,
-    asks: mask ? mask.joints : null,
+    joints: mask ? mask.joints : null,
     hold: 0,
     hit: hit ?? null,
     hands: hands ? handPoses[hands - 1] : null,
   };
 }
 
-/// A project's dancers, with their own keys as given in `said`.
-export const dancersMessage = ({ dancers, apart }: Project, said?: (keys: Key[]) => MessageInitShape<typeof ProjectSchema>['keys']) => ({
-  dancers: dancers.map(({ keys, seed, ...rest }) => ({ ...rest, seed: seed === null ? undefined : BigInt(seed), hasKeys: !!(said && keys), keys: (keys && said?.(keys)) ?? [] })),
+/// A project's dancers, with their own keys as `keyMessages` gives them.
+export const dancersMessage = ({ dancers, apart }: Project, keyMessages?: (keys: Key[]) => MessageInitShape<typeof ProjectSchema>['keys']) => ({
+  dancers: dancers.map(({ keys, seed, ...rest }) => ({ ...rest, seed: seed === null ? undefined : BigInt(seed), hasKeys: !!(keyMessages && keys), keys: (keys && keyMessages?.(keys)) ?? [] })),
   apart,
 });
 
 export function projectMessage(project: Project, fps: number): MessageInitShape<typeof ProjectSchema> {
-  const said = (keys: Key[]) => trimmed(keys, Math.round(project.seconds * fps), fps).map((key) => ({ key: keyMessage(key), hold: BigInt(key.hold) }));
+  const keyMessages = (keys: Key[]) => trimmed(keys, Math.round(project.seconds * fps), fps).map((key) => ({ key: keyMessage(key), hold: BigInt(key.hold) }));
   const { song, seconds, seed, style, dynamics, variation, beats, markers, keys } = project;
   return {
     song, seconds, seed: BigInt(seed), style, musicDynamics: dynamics, variation, controls: controlsMessage(project),
     ...(beats ? { beats: { bar: beats.bar, times: beats.list.map(({ time }) => time), counts: beats.list.map(({ count }) => count) } } : {}),
     markers: markers.map(({ frame, name }) => ({ frame: BigInt(frame), name })),
-    ...dancersMessage(project, said),
-    keys: said(keys),
+    ...dancersMessage(project, keyMessages),
+    keys: keyMessages(keys),
   };
 }
 
 /// `height`: that of the hips if a key has no place.
-export function readProject(said: Message, fps: number, height: number): Project {
+export function readProject(message: Message, fps: number, height: number): Project {
   const keysOf = (keys: ProjectKey[]) => keys.map(({ key, hold }): Key => ({ ...readKey(key!, fps, height), hold: Number(hold) }));
   const partner = ({ id, x, z, facing, mirrored, after, inCounts, seed, style, hasKeys, keys }: StageDancer): Partner => ({
     id, x, z, facing, mirrored, after, inCounts: inCounts || after === 0, seed: seed === undefined ? null : Number(seed), style, keys: hasKeys ? keysOf(keys) : null,
   });
-  const usual = emptyProject(said.song, said.seconds ?? 0);
+  const usual = emptyProject(message.song, message.seconds ?? 0);
   return {
     ...usual,
-    seed: Number(said.seed ?? usual.seed),
-    style: said.style,
-    dynamics: said.musicDynamics ?? usual.dynamics,
-    variation: said.variation ?? usual.variation,
-    beats: said.beats ? { bar: said.beats.bar, list: said.beats.times.map((time, i) => ({ time, count: said.beats!.counts[i] })) } : null,
-    ...(said.controls ? readControls(said.controls) : {}),
-    markers: said.markers.map(({ frame, name }) => ({ frame: Number(frame), name })),
-    keys: keysOf(said.keys),
-    dancers: said.dancers.map(partner),
-    apart: said.apart ?? usual.apart,
+    seed: Number(message.seed ?? usual.seed),
+    style: message.style,
+    dynamics: message.musicDynamics ?? usual.dynamics,
+    variation: message.variation ?? usual.variation,
+    beats: message.beats ? { bar: message.beats.bar, list: message.beats.times.map((time, i) => ({ time, count: message.beats!.counts[i] })) } : null,
+    ...(message.controls ? readControls(message.controls) : {}),
+    markers: message.markers.map(({ frame, name }) => ({ frame: Number(frame), name })),
+    keys: keysOf(message.keys),
+    dancers: message.dancers.map(partner),
+    apart: message.apart ?? usual.apart,
   };
 }

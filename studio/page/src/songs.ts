@@ -1,7 +1,7 @@
 // The song of the dance, and its playback.
 import type { SongHeard } from './generated/studio/studio_pb';
 import { wire } from './link';
-import { opened, song, tell } from './state';
+import { opened, song, notify } from './state';
 import type { Song } from './state';
 import { wav } from './wav';
 
@@ -14,31 +14,31 @@ const types: Record<string, string> = {
 export const songExtensions = Object.keys(types);
 
 /// Makes a song the played one.
-export function takeSong(name: string, bytes: Uint8Array, heard: SongHeard) {
+export function useSong(name: string, bytes: Uint8Array, analysis: SongHeard) {
   const type = types[name.split('.').at(-1)!.toLowerCase()] ?? '';
-  play({ name, bytes, heard, url: URL.createObjectURL(new Blob([bytes as BlobPart], { type })) });
+  play({ name, bytes, analysis, url: URL.createObjectURL(new Blob([bytes as BlobPart], { type })) });
 }
 
-function play(taken: Song) {
-  audio.src = taken.url;
-  song.value = taken;
+function play(next: Song) {
+  audio.src = next.url;
+  song.value = next;
 }
 
 /// Has the program analyse a song and uses it for the dance.
-export async function hear(name: string, bytes: Uint8Array) {
-  const answer = await wire.ask({ case: 'song', value: { name, data: bytes } });
-  if (answer.case === 'song') takeSong(name, bytes, answer.value);
+export async function analyseSong(name: string, bytes: Uint8Array) {
+  const answer = await wire.request({ case: 'song', value: { name, data: bytes } });
+  if (answer.case === 'song') useSong(name, bytes, answer.value);
 }
 
 /// Reports problems of the song's file, together with other notes.
-export function tellOfSong(also = '') {
-  const { name, heard } = song.value!;
-  if (heard.notes.length) tell(`${opened(name, `${heard.seconds.toFixed(1)} s of song`, heard.notes)} ${also}`.trim());
+export function showSongNotes(also = '') {
+  const { name, analysis } = song.value!;
+  if (analysis.notes.length) notify(`${opened(name, `${analysis.seconds.toFixed(1)} s of song`, analysis.notes)} ${also}`.trim());
 }
 
 /// Returns to an earlier song; playback continues if it is the present one.
 export async function returnTo(known: Song) {
-  await wire.ask({ case: 'song', value: { name: known.name, data: known.bytes } });
+  await wire.request({ case: 'song', value: { name: known.name, data: known.bytes } });
   if (known !== song.value) play(known);
 }
 

@@ -88,7 +88,7 @@ export class Stage {
     if (!handle || !this.posing) return;
     const to = placesOf(this.posing).get(id)!.add(by);
     this.posing = pull(studio.skeleton, this.posing, handle, to, studio.movable.value);
-    studio.bendSoon(this.posing);
+    studio.previewEditedPose(this.posing);
   }
 
   private dress(isDark: boolean) {
@@ -197,7 +197,7 @@ export class Stage {
     this.view.stepAside();
     this.camera.updateMatrixWorld();
     // Skips pictures equal to the last one.
-    const seen = [time, path, motion, motion?.count, this.posing, studio.present.value, studio.takes.value, studio.cast.value, this.ghost.scene.visible, studio.onion.value, studio.movable.value,
+    const seen = [time, path, motion, motion?.count, this.posing, studio.momentIndex.value, studio.takes.value, studio.cast.value, this.ghost.scene.visible, studio.onion.value, studio.movable.value,
       studio.selectedKey.value, this.camera.aspect, studio.live.value, studio.sketch.value, this.canvas.clientWidth, this.renderer.getPixelRatio(), this.isDark, this.camera.zoom,
       ...this.camera.matrixWorld.elements.map((value) => Math.round(value * 1e4))];
     if (seen.every((value, i) => value === this.seen[i])) return;

@@ -23,7 +23,7 @@ export type Moment = {
 };
 /// A possible problem, and its frame.
 export type Warning = { frame: number; text: string };
-export type Song = { name: string; url: string; bytes: Uint8Array; heard: SongHeard };
+export type Song = { name: string; url: string; bytes: Uint8Array; analysis: SongHeard };
 /// A picture and its landmarks, 0 to 1 along its sides.
 export type Photo = { url: string; width: number; height: number; marks: { x: number; y: number; visibility: number }[] };
 /// A pose from a photo that is not a key yet.
@@ -39,14 +39,14 @@ export const welcome = signal<Welcome | null>(null);
 export const isConnected = signal(false);
 export const song = signal<Song | null>(null);
 export const moments = signal<Moment[]>([]);
-export const present = signal(-1);
+export const momentIndex = signal(-1);
 export const message = signal<{ text: string; isError: boolean } | null>(null);
 /// The number of frames danced so far.
 export const danced = signal(0);
 export const busy = signal(0);
 export const selectedKey = signal<string | null>(null);
 /// The selected phrase, as frames [from, to): an interval between two keys, or any part.
-export const chosen = signal<[number, number] | null>(null);
+export const selection = signal<[number, number] | null>(null);
 export const takes = signal<Take[]>([]);
 /// The onion skin: nothing, neighbouring keys, or neighbouring frames.
 export const onion = signal<'off' | 'keys' | 'frames'>('off');
@@ -55,7 +55,7 @@ export const filming = signal<{ share: number; left: string } | null>(null);
 export const live = signal<Live | null>(null);
 export const sketch = signal<Sketch | null>(null);
 
-export const moment = computed(() => moments.value[present.value]);
+export const moment = computed(() => moments.value[momentIndex.value]);
 export const project = computed(() => live.value?.project ?? moment.value?.project);
 export const motion = computed(() => live.value?.motion ?? moment.value?.motion.value);
 /// The song on the timeline.
@@ -63,21 +63,21 @@ export const shownSong = computed(() => (live.value ? null : song.value));
 export const warnings = computed(() => moment.value?.warnings.value ?? []);
 
 /// The project as last begun, opened or saved.
-export const kept = signal<Project | undefined>(undefined);
+export const savedProject = signal<Project | undefined>(undefined);
 /// Whether closing the page loses work.
-export const isUnsaved = computed(() => !!live.value || project.value !== kept.value);
+export const isUnsaved = computed(() => !!live.value || project.value !== savedProject.value);
 
 /// Begins or opens something without marking it as unsaved work.
 export async function begin(body: () => Promise<void>) {
   const wasUnsaved = isUnsaved.value;
   await body();
-  if (!wasUnsaved) kept.value = project.value;
+  if (!wasUnsaved) savedProject.value = project.value;
 }
 
-export const tell = (text: string) => (message.value = { text, isError: false });
+export const notify = (text: string) => (message.value = { text, isError: false });
 /// The opened file's name and problems.
 export const opened = (name: string, what: string, notes: string[]) => [`${name}: ${what}.`, ...notes.map((note) => `Note: ${note}.`)].join(' ');
-export const complain = (error: unknown) =>
+export const showError = (error: unknown) =>
   (message.value = { text: error instanceof Error ? error.message : String(error), isError: true });
 
 /// Runs something that takes a while; reports errors.
@@ -86,7 +86,7 @@ export async function work(body: () => Promise<void>) {
   try {
     await body();
   } catch (error) {
-    complain(error);
+    showError(error);
   } finally {
     busy.value -= 1;
   }

@@ -2,10 +2,10 @@
 import { Control } from './generated/choreo/v1/choreography_pb';
 import { finish } from './history';
 import { compose } from './keys';
-import { whenThere } from './link';
-import { audio, returnTo, takeSong, tellOfSong } from './songs';
+import { whenConnected } from './link';
+import { audio, returnTo, useSong, showSongNotes } from './songs';
 import { stopLive } from './live';
-import { begin, complain, isUnsaved, live, moment, song, tell, welcome, work } from './state';
+import { begin, showError, isUnsaved, live, moment, song, notify, welcome, work } from './state';
 
 export * from './beats';
 export { addPartner, cast, changePartner, faceEachOther, formation, removePartner, shirtNumber, workOnDanceOf } from './company';
@@ -29,18 +29,18 @@ export { keepTake, tryTakes, tryTheRest } from './takes';
 
 let version = '';
 
-whenThere((received, isFirst) => {
+whenConnected((received, isFirst) => {
   if (isFirst) {
     version = received.version;
     if (!received.song || !received.heard) return;
-    takeSong(received.song.name, received.song.data, received.heard);
+    useSong(received.song.name, received.song.data, received.heard);
     return void work(async () => {
       await begin(compose);
-      tellOfSong();
+      showSongNotes();
     });
   }
-  if (received.version !== version) return complain(new Error(`The studio program is now ${received.version}: save the project and reload this page.`));
-  tell('The studio program is there again.');
+  if (received.version !== version) return showError(new Error(`The studio program is now ${received.version}: save the project and reload this page.`));
+  notify('The studio program is there again.');
   void work(async () => {
     const known = moment.value?.song ?? song.value;
     if (known) await returnTo(known);
@@ -58,7 +58,7 @@ export const togglePlay = () => {
   if (!audio.paused) return audio.pause();
   if (audio.ended) audio.currentTime = 0;
   // An immediate pause rejects the promise of play; this is no error.
-  void audio.play().catch((error: DOMException) => error.name !== 'AbortError' && complain(error));
+  void audio.play().catch((error: DOMException) => error.name !== 'AbortError' && showError(error));
 };
 
 /// Whether the model hears music at all.

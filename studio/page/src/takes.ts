@@ -4,7 +4,7 @@ import { made, push, stream, total } from './history';
 import { dancer, skeleton } from './link';
 import { Motion } from './motion';
 import { audio } from './songs';
-import { chosen, moment, moments, project, takes, tell, warnings, work } from './state';
+import { selection, moment, moments, project, takes, notify, warnings, work } from './state';
 import type { Moment, Take } from './state';
 import { mostUnlike, unlikeness } from './unlike';
 
@@ -12,7 +12,7 @@ const alike = 0.002; // of `unlikeness`; less is invisible
 const near = 4; // seconds; the playhead moves no further
 
 /// Suppresses notes on takes, which may never be kept.
-const silent: Watch = { grown: () => {}, noted: () => {} };
+const silent: Watch = { onFrames: () => {}, onWarning: () => {} };
 
 /// Moves a resting playhead to where takes differ most between two frames, if they look alike at its place, as at common keys.
 function goWhereTheyDiffer(from: number, to: number) {
@@ -29,8 +29,8 @@ export const tryTakes = (count = 3) => work(async () => {
   const seed = before.project.seed + moments.value.length * 100 + takes.value.length;
   const whole = await made(before);
   if (moment.value !== before) return;
-  if (!chosen.value) return tryWholes(before, seed, count);
-  const [from, to] = chosen.value;
+  if (!selection.value) return tryWholes(before, seed, count);
+  const [from, to] = selection.value;
   const end = Math.min(to, whole.count);
   const motions = await dancer.between({ ...before.project, seed }, whole, from, end, count, silent);
   if (moment.value !== before) return;
@@ -40,7 +40,7 @@ export const tryTakes = (count = 3) => work(async () => {
 
 /// Makes takes of everything but the selected interval.
 export const tryTheRest = (count = 3) => work(async () => {
-  const [before, interval] = [moment.value, chosen.value];
+  const [before, interval] = [moment.value, selection.value];
   const whole = await made(before);
   if (!interval || moment.value !== before) return;
   const [from, to] = interval;
@@ -50,7 +50,7 @@ export const tryTheRest = (count = 3) => work(async () => {
   for (let seed = first; seed < first + count; ++seed) {
     const start = from > 0 ? (await dancer.between({ ...current, seed }, whole, -1, from, 1, silent))[0] : whole;
     const other = to < whole.count - 1 ? (await dancer.between({ ...current, seed }, start, to, whole.count, 1, silent))[0] : start;
-    if (moment.value !== before || chosen.value !== interval || takes.value.length !== seed - first) return;
+    if (moment.value !== before || selection.value !== interval || takes.value.length !== seed - first) return;
     takes.value = [...takes.value, { seed: current.seed, motion: other }];
   }
   if (to < whole.count - 1) goWhereTheyDiffer(to, to + near * dancer.fps);
@@ -64,9 +64,9 @@ async function tryWholes(before: Moment, seed: number, count: number) {
     const next = { ...before.project, seed: seed + 1 + i };
     const take: Take = { seed: next.seed, motion: new Motion(skeleton.joints, dancer.fps) };
     others.push(take);
-    await dancer.stream(next, null, -1, { ...silent, grown: (grown) => {
-      if (take.motion === grown || moment.value !== before) return;
-      take.motion = grown;
+    await dancer.stream(next, null, -1, { ...silent, onFrames: (longer) => {
+      if (take.motion === longer || moment.value !== before) return;
+      take.motion = longer;
       takes.value = others.filter(({ motion: some }) => some.count > 0);
     } }, signal);
   }));
@@ -78,7 +78,7 @@ async function tryWholes(before: Moment, seed: number, count: number) {
 
 export function keepTake(take: Take) {
   const { motion: kept, seed } = take;
-  if (kept.count < total.value) return tell('This take is not danced to its end yet.');
+  if (kept.count < total.value) return notify('This take is not danced to its end yet.');
   push({ ...project.value, seed }, kept, async () => kept, warnings.value);
-  tell('Kept.');
+  notify('Kept.');
 }

@@ -6,7 +6,7 @@ import { useFrameDrag } from './drag';
 import { eight, isDownbeat, tempo } from './counts';
 import type { Pose } from './body';
 import { colour } from './palette';
-import { spoken } from './project';
+import { displayName } from './project';
 import type { Key } from './project';
 import { HoldGrip } from './hold_grip';
 import { MarkerFlags } from './marker_flags';
@@ -34,8 +34,8 @@ function Wave() {
     const wave = WaveSurfer.create({
       container: box.current!,
       media: studio.audio,
-      peaks: [value.heard.peaks],
-      duration: value.heard.seconds,
+      peaks: [value.analysis.peaks],
+      duration: value.analysis.seconds,
       height: 50,
       interact: false,
       cursorWidth: 0,
@@ -49,7 +49,7 @@ function Wave() {
     return () => wave.destroy();
   }, [value, zoom.value, isDark.value]);
   // As wide as the song, which may exist before the project; wavesurfer.js fails with width 0.
-  const width = Math.max(1, (value?.heard.seconds ?? 0) * zoom.value);
+  const width = Math.max(1, (value?.analysis.seconds ?? 0) * zoom.value);
   return <div class="wave" ref={box} style={{ left: `${edge}px`, width: `${width}px` }} />;
 }
 
@@ -81,7 +81,7 @@ function Sections() {
 function Suggestions() {
   return studio.suggested.value.map(({ time, pose }) => {
     const known = studio.welcome.value!.poses.find(({ id }) => id === pose);
-    const name = `Suggested: ${spoken(pose)} at ${clock(time)}`;
+    const name = `Suggested: ${displayName(pose)} at ${clock(time)}`;
     return known && (
       <button class="suggested" key={time} style={{ left: `${x(time)}px` }} aria-label={name} title={`${name}. Press to set it.`}
         onClick={() => studio.addKey(known, Math.round(time * studio.dancer.fps))} />
@@ -127,7 +127,7 @@ function Warnings() {
     const text = studio.warnings.value.filter((warning) => warning.frame === frame).map((warning) => warning.text).join('; ');
     return (
       <button class="warning" key={frame} style={{ left: `${x(frame / fps)}px` }} title={text} aria-label={`Warning at ${(frame / fps).toFixed(1)} s`}
-        onClick={() => studio.tell(`${(frame / fps).toFixed(1)} s: ${text}`)}>!</button>
+        onClick={() => studio.notify(`${(frame / fps).toFixed(1)} s: ${text}`)}>!</button>
     );
   });
 }
@@ -160,9 +160,9 @@ function KeyChip({ item, pictureOf }: { item: Key; pictureOf: (pose: Pose) => st
     event.preventDefault();
   };
   return (
-    <button class={`key${isSelected ? ' selected' : ''}${item.asks ? ' partial' : ''}${isReplaced ? ' replaced' : ''}`} style={{ left: `${x(frame / fps)}px` }} data-key={item.id} data-frame={item.frame}
-      aria-label={`Key ${item.id} at ${(frame / fps).toFixed(1)} s${item.asks ? `, only ${studio.inWords(item.asks, studio.skeleton.names)}` : ''}`} aria-pressed={isSelected}
-      title={`${spoken(item.id)} at ${(frame / fps).toFixed(2)} s. Drag to move, press to pose.`}
+    <button class={`key${isSelected ? ' selected' : ''}${item.joints ? ' partial' : ''}${isReplaced ? ' replaced' : ''}`} style={{ left: `${x(frame / fps)}px` }} data-key={item.id} data-frame={item.frame}
+      aria-label={`Key ${item.id} at ${(frame / fps).toFixed(1)} s${item.joints ? `, only ${studio.inWords(item.joints, studio.skeleton.names)}` : ''}`} aria-pressed={isSelected}
+      title={`${displayName(item.id)} at ${(frame / fps).toFixed(2)} s. Drag to move, press to pose.`}
       onPointerDown={grab} onKeyDown={press} onClick={(event) => event.detail === 0 && choose()}>
       <img alt="" draggable={false} src={pictureOf(item.pose)} />
     </button>
@@ -175,16 +175,16 @@ function Intervals() {
   const { keys } = studio.project.value!;
   return keys.slice(1).map((key, i) => {
     const from = keys[i].frame;
-    const isChosen = studio.chosen.value?.[0] === from && studio.chosen.value[1] === key.frame;
+    const isChosen = studio.selection.value?.[0] === from && studio.selection.value[1] === key.frame;
     return (
       <button key={`${from}-${key.frame}`} class={isChosen ? 'interval selected' : 'interval'} aria-pressed={isChosen}
         aria-label={`Interval from ${(from / fps).toFixed(1)} to ${(key.frame / fps).toFixed(1)} s`} title="Choose this interval: loop it, or try other ways to dance it. With Shift, all up to it"
         style={{ left: `${x(from / fps)}px`, width: `${((key.frame - from) / fps) * zoom.value}px` }}
         onClick={({ shiftKey }) => {
           studio.takes.value = [];
-          const { value } = studio.chosen;
+          const { value } = studio.selection;
           if (shiftKey && value) return studio.choosePhrase(Math.min(value[0], from), Math.max(value[1], key.frame));
-          studio.chosen.value = isChosen ? null : [from, key.frame];
+          studio.selection.value = isChosen ? null : [from, key.frame];
           if (!isChosen) seek(from / fps);
         }} />
     );
@@ -222,7 +222,7 @@ function usePlayhead(line: preact.RefObject<HTMLElement>, time: preact.RefObject
       const { audio } = studio;
       if (isPlaying.value === audio.paused) isPlaying.value = !audio.paused;
       if (!studio.project.value) return;
-      const [from, to] = studio.chosen.value?.map((frame) => frame / studio.dancer.fps) ?? [0, seconds() - 0.05];
+      const [from, to] = studio.selection.value?.map((frame) => frame / studio.dancer.fps) ?? [0, seconds() - 0.05];
       if (loops.value && !audio.paused && (audio.currentTime >= to || audio.currentTime < from - 0.1)) audio.currentTime = from;
       const now = studio.now();
       const at = x(now);

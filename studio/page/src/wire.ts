@@ -5,7 +5,7 @@ import { RequestSchema, ResponseSchema } from './generated/studio/studio_pb';
 import type { Response } from './generated/studio/studio_pb';
 
 type Body = NonNullable<MessageInitShape<typeof RequestSchema>['request']>;
-type Listener = { heard: (response: Response) => void; failed: (error: Error) => void };
+type Listener = { onResponse: (response: Response) => void; onFailure: (error: Error) => void };
 
 export class Wire {
   private socket?: WebSocket;
@@ -13,25 +13,25 @@ export class Wire {
   private last = 0;
 
   constructor(
-    private readonly welcomed: (response: Response) => void,
-    private readonly lost: () => void,
+    private readonly onWelcome: (response: Response) => void,
+    private readonly onLost: () => void,
   ) {
     this.connect();
   }
 
-  /// A call with many answers; the listener's `heard` gets each until `end`.
+  /// A call with many answers; `onResponse` gets each until `end`.
   open(body: Body, listener: Listener): number {
     const call = ++this.last;
     this.calls.set(call, listener);
-    this.say(call, body);
+    this.send(call, body);
     return call;
   }
 
-  say(call: number, body: Body) {
+  send(call: number, body: Body) {
     if (this.socket?.readyState === WebSocket.OPEN) {
       this.socket.send(toBinary(RequestSchema, create(RequestSchema, { call, request: body })));
     } else {
-      this.calls.get(call)?.failed(new Error('The studio program is not there.'));
+      this.calls.get(call)?.onFailure(new Error('The studio program is not there.'));
       this.calls.delete(call);
     }
   }
@@ -41,14 +41,14 @@ export class Wire {
   }
 
   /// A call with one answer.
-  ask(body: Body): Promise<Response['response']> {
+  request(body: Body): Promise<Response['response']> {
     return new Promise((resolve, reject) => {
       const call = this.open(body, {
-        heard: ({ response }) => {
+        onResponse: ({ response }) => {
           this.end(call);
           resolve(response);
         },
-        failed: reject,
+        onFailure: reject,
       });
     });
   }
@@ -56,23 +56,23 @@ export class Wire {
   private connect() {
     const socket = new WebSocket(`ws://${location.host}/studio`);
     socket.binaryType = 'arraybuffer';
-    socket.onmessage = ({ data }) => this.take(fromBinary(ResponseSchema, new Uint8Array(data)));
+    socket.onmessage = ({ data }) => this.receive(fromBinary(ResponseSchema, new Uint8Array(data)));
     socket.onclose = () => {
       const calls = [...this.calls.values()];
       this.calls.clear();
-      this.lost();
-      for (const { failed } of calls) failed(new Error('The studio program is gone.'));
+      this.onLost();
+      for (const { onFailure: failed } of calls) failed(new Error('The studio program is gone.'));
       setTimeout(() => this.connect(), 1000);
     };
     this.socket = socket;
   }
 
-  private take(response: Response) {
-    if (response.response.case === 'welcome') return this.welcomed(response);
+  private receive(response: Response) {
+    if (response.response.case === 'welcome') return this.onWelcome(response);
     const listener = this.calls.get(response.call);
     if (!listener) return;
-    if (response.response.case !== 'failure') return listener.heard(response);
+    if (response.response.case !== 'failure') return listener.onResponse(response);
     this.calls.delete(response.call);
-    listener.failed(new Error(response.response.value.message));
+    listener.onFailure(new Error(response.response.value.message));
   }
 }

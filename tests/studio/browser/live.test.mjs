@@ -94,7 +94,7 @@ await inStudio(async ({ page, until, settle, message, give, host }) => {
     await settle();
     const { name, heard, count, keys } = await page.evaluate(() => ({
       name: window.choreo.song.value.name,
-      heard: window.choreo.song.value.heard.seconds,
+      heard: window.choreo.song.value.analysis.seconds,
       count: window.choreo.motion.value.count,
       keys: window.choreo.project.value.keys.length,
     }));

@@ -24,7 +24,7 @@ async function load(name, more = '') {
 
 const { reachOf } = await load('edit_reach');
 const { roughly, timeLeft } = await load('time_left');
-const { emptyProject, freeId, freeName, sorted, spoken, trimmed, withMarker } = await load('project');
+const { emptyProject, freeId, freeName, sorted, displayName, trimmed, withMarker } = await load('project');
 const { ProjectSchema, create, fromBinary, projectMessage, readProject, toBinary } = await load('project_file',
   "export { ProjectSchema } from './generated/studio/studio_pb'; export { create, fromBinary, toBinary } from '@bufbuild/protobuf';");
 const { counted, countedLive, doubled, eight, halved, isDownbeat, later, nudged, placeAmong, pulseOf, tapped, tempo, withOne } = await load('counts');
@@ -75,10 +75,10 @@ test('time left is told roughly, and not before anybody knows', () => {
   assert.equal(timeLeft(1, 10), 'a few seconds');
 });
 
-test('ids are free, and spoken without underscores', () => {
+test('ids are free, and shown without underscores', () => {
   assert.equal(freeId([], 'kick'), 'kick');
   assert.equal(freeId([{ id: 'kick' }, { id: 'kick-2' }], 'kick-2'), 'kick-3');
-  assert.equal(spoken('side_reach'), 'side reach');
+  assert.equal(displayName('side_reach'), 'side reach');
 });
 
 test('a pose is held as far as the next key', () => {
@@ -119,8 +119,8 @@ test('of a pose some joints are taken', () => {
 });
 
 test('a project is read as it was written', () => {
-  const key = { id: 'bow', frame: 15, pose: still(2), hasPlace: true, asks: [1], hold: 6, hit: 2.5, hands: 'fist' };
-  const free = { id: 'dab', frame: 40, pose: still(2), hasPlace: false, asks: null, hold: 0, hit: null, hands: null };
+  const key = { id: 'bow', frame: 15, pose: still(2), hasPlace: true, joints: [1], hold: 6, hit: 2.5, hands: 'fist' };
+  const free = { id: 'dab', frame: 40, pose: still(2), hasPlace: false, joints: null, hold: 0, hit: null, hands: null };
   const plain = { facing: 0, mirrored: false, after: 0, inCounts: true, seed: null, style: '', keys: null };
   const dancers = [{ id: 'ada', x: 0, z: 0.6, ...plain }, { id: 'ben', x: -1.4, z: -0.4, ...plain, mirrored: true, facing: 90, after: 4, seed: 3 },
     { id: 'cy', x: 1, z: 0, ...plain, after: 2.5, inCounts: false, style: 'happy', keys: [key] }, { id: 'dee', x: 2, z: 0, ...plain, keys: [] }];

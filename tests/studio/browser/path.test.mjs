@@ -92,7 +92,7 @@ await inStudio(async ({ page, until, settle, rest, message, frames, give, downlo
   await check('an interval alone is led elsewhere, and what is before it stays', async () => {
     const before = await frames();
     await page.locator('.interval').nth(1).click();
-    const [from] = await page.evaluate(() => window.choreo.chosen.value);
+    const [from] = await page.evaluate(() => window.choreo.selection.value);
     await panel.getByRole('button', { name: 'Draw a path' }).click();
     await draw([[0.45, 0.6], [0.62, 0.7]]);
     const after = await frames();

@@ -12,7 +12,7 @@ await inStudio(async ({ page, until, settle, message, frames, give }) => {
   await page.locator('.key').first().waitFor();
   await settle();
   const keys = () => page.evaluate(() => window.choreo.project.value.keys.map(({ id, frame, pose }) => ({ id, frame, root: pose.root, rotations: pose.rotations })));
-  const chosen = () => page.evaluate(() => window.choreo.chosen.value);
+  const chosen = () => page.evaluate(() => window.choreo.selection.value);
   const press = async (name) => {
     await page.getByRole('region', { name: 'Phrase' }).getByRole('button', { name, exact: true }).click();
     await settle();

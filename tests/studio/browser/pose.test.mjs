@@ -130,8 +130,8 @@ await inStudio(async ({ page, until, settle, rest, message, frames, give, downlo
     await settle();
     await panel.getByText('The key asks for left arm, right arm.').waitFor();
     assert.match(await page.locator('.key').nth(1).getAttribute('aria-label'), /only left arm, right arm/);
-    const { frame, pose, asks, hasPlace } = await key(1);
-    assert.deepEqual(asks.map((joint) => names[joint]).filter((name) => !/collar|shoulder|elbow|wrist|hand/.test(name)), []);
+    const { frame, pose, joints, hasPlace } = await key(1);
+    assert.deepEqual(joints.map((joint) => names[joint]).filter((name) => !/collar|shoulder|elbow|wrist|hand/.test(name)), []);
     assert.equal(hasPlace, false);
     assert.ok(await panel.getByRole('button', { name: 'To the floor' }).isDisabled());
     const there = await danced(frame);
@@ -148,10 +148,10 @@ await inStudio(async ({ page, until, settle, rest, message, frames, give, downlo
     const text = readFileSync(await download(() => page.getByRole('button', { name: 'Save' }).click()), 'utf8');
     const saved = JSON.parse(text).keyframes[1];
     assert.ok(saved.joints.includes('left_elbow') && !saved.joints.includes('spine1') && !('root_position' in saved));
-    const { asks } = await key(1);
+    const { joints } = await key(1);
     await give(['clicks.json', text]);
     await settle();
-    assert.deepEqual((await key(1)).asks, asks);
+    assert.deepEqual((await key(1)).joints, joints);
     const here = readFileSync(await download(() => page.getByLabel('Export the dance').selectOption('bvh')), 'utf8');
     writeFileSync(inFolder('clicks.wav'), clicks(seconds));
     writeFileSync(inFolder('partial.json'), text);
@@ -167,8 +167,8 @@ await inStudio(async ({ page, until, settle, rest, message, frames, give, downlo
     assert.equal((await message()).text, 'One part at least is worked on.');
     await panel.getByLabel('Ask for these parts alone').uncheck();
     await settle();
-    const { asks, hasPlace } = await key(1);
-    assert.deepEqual([asks, hasPlace], [null, true]);
+    const { joints, hasPlace } = await key(1);
+    assert.deepEqual([joints, hasPlace], [null, true]);
   });
 
   await check('the dance ends in a key\'s pose, held to its last frame, and the command line ends it likewise', async () => {
@@ -201,7 +201,7 @@ await inStudio(async ({ page, until, settle, rest, message, frames, give, downlo
     const keys = await page.evaluate(() => window.choreo.project.value.keys);
     assert.deepEqual(keys.map(({ id }) => id), ['begin', 'wave', 'arms', 'strong']);
     assert.equal(keys[3].hold, 6);
-    assert.deepEqual(keys[1].asks.map((joint) => names[joint]), ['right_elbow']);
+    assert.deepEqual(keys[1].joints.map((joint) => names[joint]), ['right_elbow']);
     await choose(1);
     await panel.getByText('The key asks for right elbow.').waitFor();
     assert.deepEqual(await panel.getByLabel('Joint', { exact: true }).locator('option').allTextContents(), ['right elbow']);

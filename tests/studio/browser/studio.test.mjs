@@ -199,7 +199,7 @@ await inStudio(async ({ page, errors, until, settle, message, frames, scale, giv
   await check('a take of an interval is tried and kept', async () => {
     const before = await frames();
     await page.locator('.interval').nth(1).click();
-    const [from, to] = await page.evaluate(() => window.choreo.chosen.value);
+    const [from, to] = await page.evaluate(() => window.choreo.selection.value);
     await page.getByRole('button', { name: 'Try 3 more' }).click();
     const keep = page.getByRole('complementary', { name: 'Settings' }).getByRole('button', { name: 'Keep C' });
     await keep.waitFor();
@@ -215,7 +215,7 @@ await inStudio(async ({ page, errors, until, settle, message, frames, scale, giv
   await check('an interval is frozen, and the rest danced anew', async () => {
     const before = await frames();
     await page.locator('.interval').nth(1).click();
-    const [from, to] = await page.evaluate(() => window.choreo.chosen.value);
+    const [from, to] = await page.evaluate(() => window.choreo.selection.value);
     await page.getByRole('button', { name: 'Freeze it, try the rest' }).click();
     const keep = page.getByRole('complementary', { name: 'Settings' }).getByRole('button', { name: 'Keep D' });
     await keep.waitFor();

@@ -66,7 +66,7 @@ await inStudio(async ({ page, until, settle, give }) => {
 
   await check('takes of an interval are first seen where they differ, not at the key that they share', async () => {
     await page.locator('.interval').nth(1).click();
-    const [from, to] = await page.evaluate(() => window.choreo.chosen.value);
+    const [from, to] = await page.evaluate(() => window.choreo.selection.value);
     await tryTakes();
     const frame = await page.evaluate(() => Math.round(window.choreo.audio.currentTime * 30));
     assert.ok(frame > from && frame < to, `they are seen at ${frame}, between ${from} and ${to}`);
@@ -76,7 +76,7 @@ await inStudio(async ({ page, until, settle, give }) => {
   });
 
   await check('each take has a colour of its own, at a key as well, and its buttons have it, too', async () => {
-    const [from] = await page.evaluate(() => window.choreo.chosen.value);
+    const [from] = await page.evaluate(() => window.choreo.selection.value);
     await seek(from);
     await areOnStage('at a key');
     await page.screenshot({ path: inFolder('takes-at-a-key.png'), timeout: patience });
