@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "client/live/beat_ear.h"
-#include "client/live/passage_ear.h"
+#include "model/audio/passage_ear.h"
 #include "model/audio/resampler.h"
 
 namespace choreo::live {

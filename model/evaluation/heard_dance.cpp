@@ -1,5 +1,6 @@
 #include "model/evaluation/heard_dance.h"
 
+#include <algorithm>
 #include <cmath>
 #include <condition_variable>
 #include <iterator>
@@ -12,6 +13,7 @@
 
 #include "model/audio/format.h"
 #include "model/audio/music_id.h"
+#include "model/audio/passage_ear.h"
 #include "model/dance/dance_stream.h"
 #include "model/motion/rotation.h"
 
@@ -50,18 +52,39 @@ class Listener : public DanceSink {
   bool is_over_ = false;
 };
 
+ValidDance ValidMonoDance(const SampleQueue& queue, DanceConfig config) {
+  config.audio = DanceConfig::Audio{kModelSampleRate, 1, 0};
+  config.generate_until = 0;
+  return ValidDance(std::move(config), queue.model());
+}
+
 }  // namespace
 
 std::vector<Pose> DanceTo(SampleQueue& queue, std::span<const float> mono, DanceConfig config,
                           std::span<const Key> keys, const ControlRequest& controls) {
-  config.audio = DanceConfig::Audio{kModelSampleRate, 1, 0};
   config.music_id = MusicId(mono);
-  config.generate_until = 0;
   const auto listener = std::make_shared<Listener>();
-  DanceStream stream(queue, ValidDance(std::move(config), queue.model()), listener);
+  DanceStream stream(queue, ValidMonoDance(queue, std::move(config)), listener);
   if (controls.root_path || controls.velocity_factors) stream.SetControls(controls);
   for (const Key& key : keys) stream.SetKey(key, AtFrame{key.frame});
   stream.PushAudio(mono, 0);
+  stream.HalfClose();
+  return listener->Wait();
+}
+
+std::vector<Pose> DanceLiveTo(SampleQueue& queue, std::span<const float> mono, DanceConfig config) {
+  constexpr size_t kPiece = kModelSampleRate / 10;
+  constexpr double kLookAhead_s = 0.3;  // choreo live's default
+  const auto listener = std::make_shared<Listener>();
+  DanceStream stream(queue, ValidMonoDance(queue, std::move(config)), listener);
+  PassageEar ear;
+  for (size_t at = 0; at < mono.size(); at += kPiece) {
+    const std::span<const float> piece = mono.subspan(at, std::min(kPiece, mono.size() - at));
+    if (const std::optional<Passage> passage = ear.Hear(piece)) stream.GivePassages({*passage});
+    const double now = static_cast<double>(at + piece.size()) / kModelSampleRate;
+    stream.GenerateUntil(std::llround((now + kLookAhead_s) * kModelFps));
+    stream.PushAudio(piece, static_cast<int64_t>(at));
+  }
   stream.HalfClose();
   return listener->Wait();
 }

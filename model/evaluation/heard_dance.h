@@ -15,6 +15,11 @@ namespace choreo {
 std::vector<Pose> DanceTo(SampleQueue& queue, std::span<const float> mono, DanceConfig config,
                           std::span<const Key> keys = {}, const ControlRequest& controls = {});
 
+/// Makes the dance that `choreo live` would get for the same music, whose beats the server
+/// predicts: pushes a tenth of a second at a time, and announces repeats (PassageEar) as they are
+/// heard.
+std::vector<Pose> DanceLiveTo(SampleQueue& queue, std::span<const float> mono, DanceConfig config);
+
 /// Makes keys for another dance from this one's poses every two seconds, in place.
 std::vector<Key> KeysOf(std::span<const Pose> dance);
 

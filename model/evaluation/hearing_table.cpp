@@ -50,7 +50,8 @@ constexpr Setting kSettings[] = {{"usual"},
 constexpr const Setting &kUsual = kSettings[0], &kLive = kSettings[1];
 // Settings that change how music moves a dance, when it does, and whether it repeats.
 const std::vector<const Setting*> kEnergetic{&kUsual, &kLive, &kSettings[2]},
-    kTimely{&kUsual, &kLive}, kVaried{&kUsual, &kSettings[3], &kSettings[4]}, kOnlyUsual{&kUsual};
+    kTimely{&kUsual, &kLive}, kVaried{&kUsual, &kLive, &kSettings[3], &kSettings[4]},
+    kOnlyUsual{&kUsual};
 
 double MeanOf(std::span<const float> values) {
   double sum = 0;
@@ -156,7 +157,8 @@ class Judge {
   std::vector<Pose> Dance(std::span<const float> mono, const DanceConfig& config,
                           const Setting& setting, std::span<const Key> keys = {},
                           const ControlRequest& controls = {}) {
-    std::vector<Pose> dance = DanceTo(queue_, mono, config, keys, controls);
+    std::vector<Pose> dance = setting.live ? DanceLiveTo(queue_, mono, config)
+                                           : DanceTo(queue_, mono, config, keys, controls);
     Tally& tally = tallies_[setting.name];
     ++tally.dances;
     const std::vector<float> speeds = Speeds(dance);

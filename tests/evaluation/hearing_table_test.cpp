@@ -42,7 +42,7 @@ TEST(HearingTable, HasAllFiguresAndMeasuresTheEffectOfMusic) {
     const bool drops = name.starts_with("seconds"), varies = name == "a part again";
     const bool energetic =
         !drops && !varies && !name.starts_with("two") && !name.starts_with("hits");
-    EXPECT_EQ(std::isfinite(Figure(table, row, 1)), energetic || drops) << row;
+    EXPECT_EQ(std::isfinite(Figure(table, row, 1)), energetic || drops || varies) << row;
     EXPECT_EQ(std::isfinite(Figure(table, row, 2)), energetic) << row;
     EXPECT_EQ(std::isfinite(Figure(table, row, 3)), varies) << row;
     EXPECT_EQ(std::isfinite(Figure(table, row, 4)), varies) << row;

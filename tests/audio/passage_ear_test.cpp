@@ -1,4 +1,4 @@
-#include "client/live/passage_ear.h"
+#include "model/audio/passage_ear.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include "model/audio/made_song.h"
 
 /// Live music, a part of which returns.
-namespace choreo::live::passage_ear_test {
+namespace choreo::passage_ear_test {
 
 constexpr double kPart = 20;  // seconds
 
@@ -60,4 +60,4 @@ TEST(PassageEar, GivesNothingInSilence) {
   EXPECT_TRUE(Hear(std::vector<float>(40 * kModelSampleRate)).empty());
 }
 
-}  // namespace choreo::live::passage_ear_test
+}  // namespace choreo::passage_ear_test

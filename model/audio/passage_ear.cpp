@@ -1,13 +1,13 @@
-#include "client/live/passage_ear.h"
+#include "model/audio/passage_ear.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace choreo::live {
+namespace choreo {
 namespace {
 
 // Moments between reports.
-const auto kEvery = std::lround(1 / PassageListener::kMomentSeconds);
+const auto kReportEvery = std::lround(1 / PassageListener::kMomentSeconds);
 
 }  // namespace
 
@@ -21,7 +21,7 @@ std::optional<Passage> PassageEar::Hear(std::span<const float> mono) {
     mono_.erase(mono_.begin(), mono_.begin() + PassageListener::kHop);
     const std::optional<int64_t> lag = listener_.Lag();
     const int64_t now = listener_.moments();
-    if (lag == sent_lag_ && (!lag || now - sent_at_ < kEvery)) continue;
+    if (lag == sent_lag_ && (!lag || now - sent_at_ < kReportEvery)) continue;
     const double from = static_cast<double>(now) * PassageListener::kMomentSeconds;
     if (from >= kMaxAudioSeconds) break;
     // A passage without length ends the repeat: it revokes the announced passage.
@@ -35,4 +35,4 @@ std::optional<Passage> PassageEar::Hear(std::span<const float> mono) {
   return found;
 }
 
-}  // namespace choreo::live
+}  // namespace choreo

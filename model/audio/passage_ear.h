@@ -7,7 +7,7 @@
 #include "model/audio/passages.h"
 #include "model/audio/repeat_lag.h"
 
-namespace choreo::live {
+namespace choreo {
 
 /// Detects whether live music repeats, and predicts how it then continues.
 class PassageEar {
@@ -27,4 +27,4 @@ class PassageEar {
   int64_t sent_at_ = 0;  // in moments
 };
 
-}  // namespace choreo::live
+}  // namespace choreo
