@@ -50,6 +50,7 @@ CHOREO_EACH_CPU void MultiplyTriangle(const float* triangle, const float* by, Ei
                                       float* out) {
   typedef float Rows __attribute__((vector_size(32), aligned(4), may_alias));
   constexpr Eigen::Index kRows = 8;
+  constexpr int kSums = 4;  // at once, because a sum alone waits for each of its additions
   if (size < kRows) {
     for (Eigen::Index row = 0; row < size; ++row) {
       out[row] = 0;
@@ -57,12 +58,22 @@ CHOREO_EACH_CPU void MultiplyTriangle(const float* triangle, const float* by, Ei
     }
     return;
   }
-  for (Eigen::Index at = 0; at < size; at += kRows) {
-    const Eigen::Index row = std::min(at, size - kRows);  // the last may be computed twice
-    Rows sums = {};
-    for (Eigen::Index i = 0; i < row + kRows; ++i)
-      sums += by[i] * *reinterpret_cast<const Rows*>(triangle + i * size + row);
-    std::memcpy(out + row, &sums, sizeof sums);
+  for (Eigen::Index at = 0; at < size; at += kSums * kRows) {
+    Eigen::Index rows[kSums];
+    for (int sum = 0; sum < kSums; ++sum)
+      rows[sum] = std::min(at + sum * kRows, size - kRows);  // the last may be computed twice
+    Rows sums[kSums] = {};
+    Eigen::Index i = 0;
+#pragma GCC unroll 4
+    for (int first = 0; first < kSums; ++first) {
+      for (; i < rows[first] + kRows; ++i) {
+#pragma GCC unroll 4
+        for (int sum = first; sum < kSums; ++sum)
+          sums[sum] += by[i] * *reinterpret_cast<const Rows*>(triangle + i * size + rows[sum]);
+      }
+    }
+    for (int sum = 0; sum < kSums; ++sum)
+      std::memcpy(out + rows[sum], &sums[sum], sizeof sums[sum]);
   }
 }
 
