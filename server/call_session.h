@@ -53,7 +53,8 @@ class CallSession : public Call {
   CallProgress progress() const override {
     CallProgress progress = outbox_.progress();
     const std::shared_ptr<Dance> current = dance();
-    if (!progress.unread && current && current->IsSampling()) progress.since = Clock::now();
+    if (!progress.unread && current && current->IsSampling())
+      progress.since = serving_.calls.time().Now();
     return progress;
   }
 
