@@ -15,7 +15,7 @@
     NLOHMANN_JSON_EXPAND(NLOHMANN_JSON_PASTE(NLOHMANN_JSON_FROM, __VA_ARGS__))   \
   }
 
-/// The same for options: missing fields keep their defaults.
+/// Like CHOREO_JSON_FIELDS, for options: missing fields keep their defaults.
 #define CHOREO_JSON_OPTIONS(Type, ...)                                                      \
   CHOREO_TO_JSON(Type, __VA_ARGS__)                                                         \
   void from_json(const nlohmann::json& nlohmann_json_j, Type& nlohmann_json_t) {            \

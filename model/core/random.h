@@ -18,8 +18,8 @@ std::array<uint32_t, 4> Philox4x32(const std::array<uint32_t, 4>& counter,
 /// |out[d]| < 6.8.
 void FillNormal(uint64_t seed, uint32_t candidate, int64_t absolute_frame, std::span<float> out);
 
-/// The same for a frame that repeats frame `like`. `variation` 0 gives that frame's numbers, 1 the
-/// frame's own, and values between correlate with `like`'s by sqrt(1 - variation²).
+/// FillNormal for a frame that repeats frame `like`. `variation` 0 gives that frame's numbers, 1
+/// the frame's own, and values between correlate with `like`'s by sqrt(1 - variation²).
 void FillNormalLike(uint64_t seed, uint32_t candidate, int64_t absolute_frame, int64_t like,
                     double variation, std::span<float> out);
 

@@ -12,7 +12,7 @@
 
 namespace choreo {
 
-/// The network of a continuous flow, on any engine. Thread-safe.
+/// The network of a continuous flow, on any engine. Implementations are thread-safe.
 class FlowNetwork {
  public:
   virtual ~FlowNetwork() = default;

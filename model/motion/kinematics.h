@@ -22,9 +22,10 @@ JointPlacement ForwardKinematics(const Skeleton& skeleton, const Pose& pose);
 /// Positions alone, [3, joints].
 Eigen::Matrix3Xd JointPositions(const Skeleton& skeleton, const Pose& pose);
 
-/// The same into `placement`, without allocation if it already has the skeleton's size.
+/// Forward kinematics into `placement`, without allocation if it already has the skeleton's size.
 void ForwardKinematics(const Skeleton& skeleton, const Pose& pose, JointPlacement& placement);
-/// The same from local rotation matrices, [3, 3 * joints], side by side.
+/// Forward kinematics of a root position, metres, and local rotation matrices, [3, 3 * joints],
+/// side by side.
 void ForwardKinematics(const Skeleton& skeleton, const Eigen::Vector3d& root,
                        const Eigen::Ref<const Eigen::Matrix3Xd>& local, JointPlacement& placement);
 

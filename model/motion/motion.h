@@ -31,7 +31,7 @@ struct Motion {
 /// do not change.
 void MakeContinuous(Pose& pose, const Pose& previous);
 
-/// The same from frame to frame. The first frame stays unchanged.
+/// Makes each frame continuous with the one before. The first frame stays unchanged.
 void MakeContinuous(Motion& motion);
 
 /// Returns the same pose with each rotation vector on the branch nearest to `previous`'s among

@@ -17,7 +17,7 @@ inline constexpr double kMaxJumpHeight = 1.2;  ///< metres from the floor to the
 std::vector<std::string> PoseFaults(const Skeleton& skeleton, const Pose& pose,
                                     const PoseMask& mask = {});
 
-/// The same for the bends of knees and elbows alone.
+/// The faults of knees and elbows alone, which bend farther than any body's, backwards or folded.
 std::vector<std::string> BendFaults(const Skeleton& skeleton, const Pose& pose,
                                     const PoseMask& mask = {});
 

@@ -33,7 +33,7 @@ void CheckKeyPose(const Skeleton& skeleton, const Pose& pose, const std::string&
 /// real motion.
 void CheckHistory(const Skeleton& skeleton, std::span<const Pose> poses, const std::string& field);
 
-/// The same for a motion's poses, "frames[7]", with kMaxWoundRotation.
+/// Checks a motion's poses, "frames[7]", with angles of at most kMaxWoundRotation.
 void CheckMotionLimits(const Motion& motion);
 
 }  // namespace choreo

@@ -45,8 +45,8 @@ Eigen::Matrix3d RightJacobian(const Eigen::Vector3d& w);
 /// log(exp(a) exp(delta)), on the branch nearest to a.
 Eigen::Vector3d RotationCompose(const Eigen::Vector3d& a, const Eigen::Vector3d& delta);
 
-/// The same rotation the other way round, by 2 pi minus the angle. `turn` itself if it is nearly
-/// zero, because its axis is then noise.
+/// The rotation with the same end the other way round, by 2 pi minus the angle. `turn` itself if it
+/// is nearly zero, because its axis is then noise.
 Eigen::Vector3d OtherWayRound(const Eigen::Vector3d& turn);
 /// `turn` or OtherWayRound(turn), whichever is nearer to `expected`.
 Eigen::Vector3d NearerWayRound(const Eigen::Vector3d& turn, const Eigen::Vector3d& expected);
@@ -66,7 +66,7 @@ double Heading(const Eigen::Matrix3d& r);
 /// The rotation by `heading` about +Y.
 Eigen::Matrix3d HeadingRotation(double heading);
 
-/// The same angle in (-pi, pi].
+/// The equivalent angle in (-pi, pi], radians.
 double WrapAngle(double angle);
 
 }  // namespace choreo

@@ -8,8 +8,8 @@
 #include "model/motion/skeleton.h"
 #include "model/plan/plan_options.h"
 
-/// Stages that process a plan between model and arrival, where a network lacks the information or a
-/// rule does better. Pure functions, thread-safe. kPlanStages lists them.
+/// The stages of a plan between network and arrival (plan/process_plan.h), where the network lacks
+/// the information or a rule does better. Pure functions, thread-safe.
 namespace choreo {
 
 inline constexpr double kPauseSeconds = 1.5;  ///< least time between beats that is a pause
@@ -68,7 +68,7 @@ void HitKey(const PlanContext& context, double hit, std::vector<Pose>* plan);
 /// takes: the cubic from 0 to 1 with slopes 1 and `hit`.
 double HitTime(double u, double hit);
 
-/// The stages of every plan, in order.
+/// The stages in order, for models with ModelInfo::plan_stages.
 inline constexpr void (*kPlanStages[])(const PlanContext&, std::vector<Pose>*) = {
     TimeToBeats, LimitHinges, ReturnToFloor};
 

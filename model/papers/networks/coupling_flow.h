@@ -82,7 +82,7 @@ class CouplingFlowImpl : public torch::nn::Module {
   torch::Tensor Inverse(const torch::Tensor& z, const torch::Tensor& condition,
                         const std::vector<torch::Tensor>& inverse_weights, FlowState* state,
                         torch::Tensor* log_det);
-  /// The same for states in separate tensors; `log_det` may be null.
+  /// z → x with the states in separate tensors, which are replaced; `log_det` may be null.
   torch::Tensor Inverse(const torch::Tensor& z, const torch::Tensor& condition,
                         const std::vector<torch::Tensor>& inverse_weights,
                         std::vector<CouplingState>* states, torch::Tensor* log_det);

@@ -20,7 +20,7 @@ Checkpoint ParseCheckpoint(const Safetensors& content, const std::string& name);
 /// network's tensors.
 std::string SaveCheckpoint(const std::filesystem::path& path, FlowModel& model, Safetensors weights,
                            const nlohmann::json& card);
-/// The same with the network's own tensors.
+/// SaveCheckpoint of the network's own tensors.
 std::string SaveCheckpoint(const std::filesystem::path& path, FlowModel& model,
                            const nlohmann::json& card);
 
