@@ -49,8 +49,8 @@ double NumberFor(Decision decision, const FlowModelParts& model, const FlowNoise
 
 // The root path of the controls: which axes it fixes, and where, as residuals x and as white
 // coordinates z, both [3, w].
-struct KnownPath {
-  KnownPath(const WindowRequest& request, const FlowWindow& window) {
+struct FixedPath {
+  FixedPath(const WindowRequest& request, const FlowWindow& window) {
     const ControlCurve& path = request.controls[kRootPath];
     if (!path.IsGiven()) return;
     axes = {0, 2};
@@ -93,7 +93,7 @@ Slices<std::vector<Pose>> SamplePass(const FlowModelParts& model, const FlowNetw
                &request);
   CorrectLevels(model, energy_temperature, &request);
   window.SetEnergy(model.prior, request);
-  const KnownPath known(request, window);
+  const FixedPath path(request, window);
   const Eigen::MatrixXd still = Eigen::MatrixXd::Zero(model.prior.dimensions(), window.frames());
   // Noise is correlated over dimensions like motion.
   Eigen::MatrixXd start = still;
@@ -106,10 +106,10 @@ Slices<std::vector<Pose>> SamplePass(const FlowModelParts& model, const FlowNetw
   Eigen::MatrixXd w = start, mean, before;
   if (temperature != 1) mean = co_await field.Evaluate(still, 0);
   for (int step = 0; temperature > 0 && step < field.steps(); ++step) {
-    // Moves coordinates that a path fixes from their noise to their known values, step by step.
+    // Moves coordinates that a path fixes from their noise to their fixed values, step by step.
     const double angle = field.Angle(step);
-    for (const int axis : known.axes)
-      w.row(axis) = std::cos(angle) * start.row(axis) + std::sin(angle) * known.z.row(axis);
+    for (const int axis : path.axes)
+      w.row(axis) = std::cos(angle) * start.row(axis) + std::sin(angle) * path.z.row(axis);
     const Eigen::MatrixXd f = co_await field.Evaluate(w, step);
     w += field.Angle(1) * (step == 0 ? f : Eigen::MatrixXd(1.5 * f - 0.5 * before));
     w = w.cwiseMax(-MotionPrior::kMaxWhite).cwiseMin(MotionPrior::kMaxWhite);
@@ -117,7 +117,7 @@ Slices<std::vector<Pose>> SamplePass(const FlowModelParts& model, const FlowNetw
   }
   if (temperature != 1) w = mean + temperature * (w - mean);
   Eigen::MatrixXd x = window.Colour(w);
-  for (const int axis : known.axes) x.row(axis) = known.x.row(axis);
+  for (const int axis : path.axes) x.row(axis) = path.x.row(axis);
   co_return window.Decode(x);
 }
 
@@ -128,7 +128,7 @@ WindowRequest PartOf(const WindowRequest& request, int from, int frames,
       request.Part(from, frames, std::span(danced).last(request.history.size()), ground);
   if (part.key && part.to_key > kSightFrames) {  // training shows none so far away
     part.key.reset();
-    part.turning.reset();
+    part.turn_to_key.reset();
   }
   return part;
 }
@@ -178,9 +178,9 @@ Slices<std::vector<Pose>> SampleWindow(const FlowModelParts& model, const FlowNe
 
 Slices<std::vector<Pose>> SampleTransition(const FlowModelParts& model, const FlowNetwork& network,
                                            WindowRequest request, FlowNoise noise) {
-  if (!request.turning)
-    request.turning = model.turns.Sample(model.skeleton, request,
-                                         NumberFor(kWayToKey, model, noise), noise.temperature);
+  if (!request.turn_to_key)
+    request.turn_to_key = model.turns.Sample(model.skeleton, request,
+                                             NumberFor(kWayToKey, model, noise), noise.temperature);
   const auto tau = std::ssize(request.history);
   const UsualPose& usual = model.prior.usual();
   const int windows =
@@ -201,8 +201,8 @@ Slices<std::vector<Pose>> SampleTransition(const FlowModelParts& model, const Fl
       if (!own.like.empty()) own.like.erase(own.like.begin(), own.like.begin() + from);
       WindowRequest own_part = part;
       if (part.FrontCounts())
-        own_part.turn = FreeTurn(model.prior, part,
-                                 std::min(own.temperature, 1.0) * NumberFor(kFreeTurn, model, own));
+        own_part.free_turn = FreeTurn(
+            model.prior, part, std::min(own.temperature, 1.0) * NumberFor(kFreeTurn, model, own));
       std::vector<Pose> poses = co_await SampleWindow(model, network, own_part, own);
       double excess = 0;
       if (noise.temperature > 0) {

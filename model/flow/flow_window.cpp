@@ -88,7 +88,7 @@ WindowRequest WindowRequest::Part(int from, int count, std::span<const Pose> pos
   if (key) part.key = ground.ToLocal(*key);
   part.to_key = to_key - from;
   if (from > 0) {  // frames before this part already follow the request
-    part.turning.reset();
+    part.turn_to_key.reset();
     part.energy_shift.before = energy_shift.now;
   }
   part.controls = controls.Part(from, count);
@@ -105,8 +105,8 @@ WindowRequest Mirror(const std::vector<int>& pairs, const WindowRequest& request
   for (size_t joint = 0; joint < request.mask.joints.size(); ++joint)
     mirrored.mask.joints[joint] = request.mask.joints[static_cast<size_t>(pairs[joint])];
   // A mirrored rotation vector keeps the component across the mirror; a position flips only that.
-  if (request.turning) mirrored.turning->tail<2>() *= -1;
-  if (request.turn) *mirrored.turn *= -1;
+  if (request.turn_to_key) mirrored.turn_to_key->tail<2>() *= -1;
+  if (request.free_turn) *mirrored.free_turn *= -1;
   mirrored.controls.Mirror();
   if (request.stage) {
     mirrored.stage->origin.x() *= -1;
@@ -180,7 +180,7 @@ void FlowWindow::SetKey(const MotionPrior& prior, const WindowRequest& request) 
   const Eigen::Vector3d ahead =
       std::min<double>(kTurnHorizon, request.to_key) * velocity_.segment<3>(3);
   displacement_.segment<3>(3) =
-      NearerWayRound(displacement_.segment<3>(3), request.turning.value_or(ahead));
+      NearerWayRound(displacement_.segment<3>(3), request.turn_to_key.value_or(ahead));
   const auto dimensions = static_cast<int>(displacement_.size());
   for (int d = 3; d < dimensions; ++d) keyed_[static_cast<size_t>(d)] = mask.Constrains(d / 3 - 1);
   for (int d = 0; d < dimensions; ++d) {
@@ -238,7 +238,7 @@ void FlowWindow::FaceAudience(const MotionPrior& prior, const WindowRequest& req
                               const Eigen::MatrixXd& velocities) {
   facing_ = prior.FacingBridge(request.frames);
   const Eigen::Vector3d up = UpOf(request.history.back());
-  const double turn = request.turn ? *request.turn : FreeTurn(prior, request, 0);
+  const double turn = request.free_turn ? *request.free_turn : FreeTurn(prior, request, 0);
   const Eigen::VectorXd turned = facing_->key * (turn + WrapAngle(request.stage->heading - turn)) +
                                  (facing_->past - (*free_)[MotionPrior::kTurn].past) *
                                      (velocities.middleRows<3>(3).transpose() * up);

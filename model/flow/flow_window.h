@@ -29,7 +29,7 @@ struct WindowRequest {
   int to_key = 0;       ///< N >= frames, frames from the history to the key, if any
   /// The rotation vector by which the root turns to its key, if known. None: the one that the
   /// history suggests.
-  std::optional<Eigen::Vector3d> turning = {};
+  std::optional<Eigen::Vector3d> turn_to_key = {};
   Controls controls = {};          ///< of its frames
   std::vector<double> beats = {};  ///< in frames from the window's first, ascending, or empty
   EnergyShift energy_shift = {};   ///< of the body parts without requested velocity factors
@@ -40,7 +40,7 @@ struct WindowRequest {
   /// The approximate turn of the root about the vertical by the window's end, radians, if no key
   /// fixes the rotation. Of the equivalent turns to the audience, the one nearest to this is used.
   /// None: the turn that the history suggests.
-  std::optional<double> turn = {};
+  std::optional<double> free_turn = {};
 
   /// The request for the frames [from, from + count) only, with `poses` as history. `ground`: the
   /// new canonical frame, in this request's frame.
@@ -58,7 +58,8 @@ struct WindowRequest {
 /// The mirrored request, in the mirrored canonical frame.
 WindowRequest Mirror(const std::vector<int>& pairs, const WindowRequest& request);
 
-/// A typical free turn for the request (WindowRequest::turn). `normal`: a standard normal number.
+/// A typical free turn for the request (WindowRequest::free_turn). `normal`: a standard normal
+/// number.
 double FreeTurn(const MotionPrior& prior, const WindowRequest& request, double normal);
 
 /// EnergyLevel of each body part in each frame, [kBodyParts, w]; NaN if not requested.

@@ -30,8 +30,8 @@ class TurnPrior {
   /// turns it about an axis other than the vertical. Equal for a dancer and the mirror image.
   static std::optional<Inputs> Describe(const Skeleton& skeleton, const WindowRequest& request);
   double ChanceOfOther(const Inputs& inputs) const;
-  /// Returns WindowRequest::turning: the likelier direction at temperature 0; at 1, each as often
-  /// as dancers choose it. `normal`: a standard normal number. None if unknown.
+  /// Returns WindowRequest::turn_to_key: the likelier direction at temperature 0; at 1, each as
+  /// often as dancers choose it. `normal`: a standard normal number. None if unknown.
   std::optional<Eigen::Vector3d> Sample(const Skeleton& skeleton, const WindowRequest& request,
                                         double normal, double temperature) const;
 };

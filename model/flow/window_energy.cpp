@@ -14,7 +14,7 @@ constexpr double kAnswer = 0.6;  // share of additional energy that shows up in 
 constexpr double kMaxLog = 1;    // bound of the logarithm of requested over wanted energy
 
 // Whether a key fixes limbs: all joints except hands and feet, which carry at most one other joint.
-bool TellsLimbs(const Skeleton& skeleton, const PoseMask& mask) {
+bool FixesLimbs(const Skeleton& skeleton, const PoseMask& mask) {
   std::vector<int> carried(static_cast<size_t>(skeleton.joints()));
   for (int joint = skeleton.joints() - 1; joint >= 0; --joint) {
     const auto at = static_cast<size_t>(joint);
@@ -42,7 +42,7 @@ EnergyPrior::Known KnownOfEnergy(const FlowModelParts& model, const WindowReques
     known.history[row] = factors[part] > 0 ? level(part, factors[part])
                                            : model.energy.least[EnergyPrior::kHistoryInput + row];
   }
-  if (!known.key || !TellsLimbs(model.skeleton, request.mask)) return known;
+  if (!known.key || !FixesLimbs(model.skeleton, request.mask)) return known;
   const BodyPartWeights weights = WeighBodyParts(model.skeleton);
   const Eigen::Matrix3Xd from = JointPositions(model.skeleton, request.history.back());
   const Pose key = Masked(*request.key, request.mask, request.history.back());
@@ -69,27 +69,27 @@ void FillInEnergy(const FlowModelParts& model, const EnergyPrior::Levels& level_
     energy_control.requested.assign(kBodyParts, false);
   }
   EnergyPrior::Levels levels = temperature * level_normals;
-  Eigen::MatrixXd ways = temperature * curve_normals;
+  Eigen::MatrixXd curves = temperature * curve_normals;
   // The history already contains the shift; do not add it again.
   EnergyPrior::Known known = KnownOfEnergy(model, *request, window);
   known.history.array() -= request->energy_shift.before;
   levels = model.energy.Sample(known, levels);
-  const bool lingers = model.curve.known();
-  ways = lingers ? model.curve.Sample(temperature * (known.history - levels), ways)
+  const bool varies = model.curve.known();
+  curves = varies ? model.curve.Sample(temperature * (known.history - levels), curves)
                  : Eigen::MatrixXd::Zero(kBodyParts, request->frames);
-  ways.colwise() += levels;
-  if (lingers) ways = model.energy.Bound(ways);
+  curves.colwise() += levels;
+  if (varies) curves = model.energy.Bound(curves);
   levels.array() += request->energy_shift.now;
-  ways.array() += request->energy_shift.now;
+  curves.array() += request->energy_shift.now;
   const EnergyPrior::Levels most = model.energy.MostEnergy();
   levels = levels.cwiseMin(most);
   for (int part = 0; part < kBodyParts; ++part) {
     if (energy_control.IsRequested(part)) continue;
     const double median = model.config.median_factors[static_cast<size_t>(part)];
     auto energy = energy_control.values.row(part);
-    for (int i = 0; i < request->frames; ++i) energy[i] = EnergyFactor(ways(part, i), median);
+    for (int i = 0; i < request->frames; ++i) energy[i] = EnergyFactor(curves(part, i), median);
     // Scales the curve so that its mean has the window's level.
-    if (const double mean = energy.mean(); lingers && mean > 0)
+    if (const double mean = energy.mean(); varies && mean > 0)
       energy *= EnergyFactor(levels[part], median) / mean;
     energy = energy.cwiseMin(EnergyFactor(most[part], median));
     energy_control.requested[static_cast<size_t>(part)] = true;

@@ -272,9 +272,9 @@ TurnPrior MeasureTurns(const Skeleton& skeleton, const std::vector<WindowRequest
   std::vector<Turn> turns;
   for (const WindowRequest& request : requests) {
     const auto inputs = TurnPrior::Describe(skeleton, request);
-    if (!inputs || !request.turning) continue;
+    if (!inputs || !request.turn_to_key) continue;
     const Eigen::Vector3d shorter = TurnPrior::ShorterTurn(request);
-    turns.push_back({*inputs, NearerWayRound(shorter, *request.turning) != shorter});
+    turns.push_back({*inputs, NearerWayRound(shorter, *request.turn_to_key) != shorter});
   }
   // Logistic regression by Newton's method, with slight shrinkage towards zero.
   TurnPrior prior;

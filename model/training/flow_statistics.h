@@ -31,7 +31,7 @@ EnergyResponse MeasureResponse(const FlowModelParts& model, const FlowNetwork& n
                                const std::vector<WindowRequest>& requests);
 
 /// Measures which way round real dancers turn to a key, given what is known of the windows. Their
-/// `turning` is the real one.
+/// `turn_to_key` is the real one.
 TurnPrior MeasureTurns(const Skeleton& skeleton, const std::vector<WindowRequest>& requests);
 
 /// Statistics of real windows: the correlation of white coordinates over dimensions, as a Cholesky

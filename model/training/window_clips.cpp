@@ -109,7 +109,7 @@ WindowRequest MakeRequest(std::span<const Pose> history, std::span<const Pose> w
   }
   if (random->Uniform() >= variation.stage) return request;
   request.stage = stage;
-  request.turn = TurnOver(history.back(), way.first(static_cast<size_t>(frames)));
+  request.free_turn = TurnOver(history.back(), way.first(static_cast<size_t>(frames)));
   return request;
 }
 
@@ -186,7 +186,7 @@ WindowBatch WindowClips::Draw(const FlowModelParts& model, int batch, int frames
     WindowRequest request =
         MakeRequest(std::span(poses).first(tau), way, ground.ToLocal(track.stage), track,
                     from + tau, variation, frames, random);
-    request.turning = turning;
+    request.turn_to_key = turning;
     if (styled) request.style = track.style;
     if (mirrored) {
       request = Mirror(pairs, request);

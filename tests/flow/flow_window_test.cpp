@@ -136,10 +136,10 @@ TEST(FlowWindow, TurnsBackToTheAudience) {
                         std::optional<double> own = {}) {
     request.stage = GroundFrame();
     const auto end = [&] { return AboutTheVertical(request, FlowWindow(prior, request)); };
-    request.turn = 0;
+    request.free_turn = 0;
     const double ahead = end();  // the part of the leaning that turns the dancer
     request.stage->heading = front;
-    request.turn = own;
+    request.free_turn = own;
     return end() - ahead;
   };
   WindowRequest open = scene.request;
@@ -196,17 +196,17 @@ TEST(WindowRequest, MirroredTwiceIsItself) {
   WindowRequest request = MakeScene(30).request;
   request.mask.joints.assign(24, true);
   request.mask.joints[16] = false;
-  request.turning = Eigen::Vector3d(0.1, 2, -0.3);
+  request.turn_to_key = Eigen::Vector3d(0.1, 2, -0.3);
   request.controls[kRootPath].values = Eigen::Matrix3Xd::Random(3, 30);
   request.controls[kVelocityFactors].values = Eigen::MatrixXd::Random(kBodyParts, 30).cwiseAbs();
   request.controls[kVelocityFactors].requested = {true, true, false, false, true};
   request.stage = GroundFrame{{1, 0, 2}, 0.5};
-  request.turn = 2;
+  request.free_turn = 2;
   const std::vector<int> pairs = MirrorPairs(Skeleton::Smpl24());
   const WindowRequest other = Mirror(pairs, request), back = Mirror(pairs, other);
   EXPECT_FALSE(other.mask.joints[17]);
   EXPECT_EQ(other.stage->heading, -0.5);
-  EXPECT_EQ(other.turn, -2);
+  EXPECT_EQ(other.free_turn, -2);
   EXPECT_EQ(other.controls[kRootPath].values.row(0), -request.controls[kRootPath].values.row(0));
   EXPECT_EQ(other.controls[kVelocityFactors].values.row(1),
             request.controls[kVelocityFactors].values.row(2));
@@ -215,7 +215,7 @@ TEST(WindowRequest, MirroredTwiceIsItself) {
   EXPECT_EQ(back.mask.joints, request.mask.joints);
   EXPECT_EQ(back.controls[kVelocityFactors].values, request.controls[kVelocityFactors].values);
   EXPECT_EQ(back.controls[kRootPath].values, request.controls[kRootPath].values);
-  EXPECT_EQ(*back.turning, *request.turning);
+  EXPECT_EQ(*back.turn_to_key, *request.turn_to_key);
   EXPECT_EQ(back.stage->origin, request.stage->origin);
   EXPECT_EQ(back.stage->heading, request.stage->heading);
   EXPECT_EQ(Apart(*back.key, *request.key), 0);

@@ -19,7 +19,7 @@ TEST(FlowStatistics, RecoversTurnStatisticsOfAPrior) {
   for (int i = 0; i < 20'000; ++i) {
     WindowRequest request = To(random.Uniform(-kPi, kPi), random.Uniform(-0.2, 0.2),
                                static_cast<int>(random.Integer(20, 90)));
-    request.turning = real.Sample(Body(), request, random.Normal(), 1);
+    request.turn_to_key = real.Sample(Body(), request, random.Normal(), 1);
     requests.push_back(request);
   }
   const TurnPrior measured = MeasureTurns(Body(), requests);
