@@ -55,7 +55,7 @@ class ArrangeTest : public StageTest {
   }
 };
 
-// None of this asks a server: there is none at that address.
+// None of these edits needs a server: the address has none.
 TEST_F(ArrangeTest, PartsOfADanceMakeTheDance) {
   Outcome outcome = Edit("dance", "--until 4", "begin");
   ASSERT_EQ(outcome.code, 0) << outcome.said;
@@ -190,7 +190,7 @@ TEST_F(ArrangeTest, MirrorsAPhraseWhereTheDancerStands) {
 TEST_F(ArrangeTest, APhraseGoesInHalfTime) {
   const std::vector<int64_t> keys = Keys("dance");
   ASSERT_GE(keys.size(), 5U);
-  // Of two keys the second one comes twice as late.
+  // The second of two keys comes twice as late.
   const std::string phrase = Seconds(keys[0]) + ' ' + Seconds(keys[1] + 1);
   const auto stretch = [&](const std::string& times, const std::string& name) {
     return Edit("dance", "--song " + At("song.wav") + " --stretch " + phrase + ' ' + times, name,
@@ -207,7 +207,7 @@ TEST_F(ArrangeTest, APhraseGoesInHalfTime) {
                          before.frames[static_cast<size_t>(keys[1])])
                 .position_m,
             0.001);
-  // What stood there made way, and all behind it is as it was.
+  // The keys that stood there are gone, and everything after them is unchanged.
   const int64_t end = keys[0] + 2 * (keys[1] + 1 - keys[0]);
   std::vector<int64_t> expected = {keys[0], after[1]};
   std::ranges::copy_if(keys, std::back_inserter(expected),
@@ -225,7 +225,7 @@ TEST_F(ArrangeTest, APhraseGoesInHalfTime) {
               1);
   EXPECT_EQ(Keys("double").size(), keys.size());
 
-  // Of a phrase that begins before its first key, that key moves, too.
+  // If a phrase begins before its first key, that key moves, too.
   ASSERT_GT(keys[1], 6);
   const Outcome later =
       Edit("dance", "--stretch " + Seconds(keys[1] - 6) + ' ' + Seconds(keys[2]) + " 0.5", "later",
@@ -252,7 +252,7 @@ TEST_F(ArrangeTest, AHeldPoseIsHeldAsMuchLonger) {
     EXPECT_LE(ComparePoses(Body(), motion.frames[frame], motion.frames[90]).position_m, 0.001);
 }
 
-// The hold is of frames 90 to 108, from 3 s to 3.6 s.
+// The hold covers frames 90 to 108, from 3 s to 3.6 s.
 TEST_F(ArrangeTest, AHoldGoesWithItsKeyWhereverAPhraseIsCut) {
   ASSERT_EQ(Edit("dance", "--key kick --at 3 --hold 0.6 --around 1", "held", Server()).code, 0);
   const auto held = [this](const std::string& name) {

@@ -62,7 +62,7 @@ TEST_F(CharacterCommandTest, AsksForAMapOfMeaninglessNames) {
   const nlohmann::json map = ReadJson(folder_ / "out.map.json");
   EXPECT_EQ(map["bones"]["left_knee"], "bone.4");
   EXPECT_GT(std::filesystem::file_size(folder_ / "out.map.png"), 5000U);
-  // What somebody may have mended is not written over.
+  // A file that somebody may have corrected is not overwritten.
   ExpectRefused(Convert("--character " + At("hero.glb")), "is there already");
   const Outcome mapped = Convert("--character " + At("hero.glb") + " --map " + At("out.map.json"));
   EXPECT_EQ(mapped.code, 0) << mapped.said;

@@ -54,7 +54,7 @@ TEST_F(CommandTest, RanksAlternativesByLikelihoodOnRequest) {
         .at("log_likelihood")
         .get<double>();
   };
-  // The best by quality is the likeliest now and then.
+  // The candidate of the best quality is sometimes also the likeliest.
   int likelier = 0;
   for (int seed = 0; seed < 4; ++seed) {
     const double by_likelihood = best("likelihood", seed), by_quality = best("quality", seed);
@@ -65,7 +65,7 @@ TEST_F(CommandTest, RanksAlternativesByLikelihoodOnRequest) {
   EXPECT_EQ(move("luck", 0).code, 2);
 }
 
-// Only the music of the frames is sent: a song may be longer than a message.
+// Sends only the music of the frames, because a song may be longer than a message.
 TEST_F(CommandTest, TransitionReceivesItsPartOfALongSong) {
   WriteClicks(folder_ / "song.wav", 200);  // 16.8 MiB of samples
   const auto move = [&](const std::string& name, const std::string& more) {
@@ -92,7 +92,7 @@ TEST_F(CommandTest, AnalyzesASong) {
   ASSERT_GT(heard["beats"].size(), 8U);
   for (const double beat : heard["beats"]) EXPECT_NEAR(std::remainder(beat, 0.5), 0, 0.07);
   EXPECT_EQ(ReadNpy(folder_ / "f.npy").shape, (std::vector<int64_t>{241, 40}));
-  // A part of it, as of a song that is too long.
+  // Only a part of the song, as for one that is too long.
   const nlohmann::json part = nlohmann::json::parse(
       Choreo("analyze " + At("song.wav") + " --json --song-start 3.25 --seconds 4").said);
   EXPECT_NEAR(part["duration_s"], 4, 1e-3);
@@ -160,7 +160,7 @@ TEST_F(CommandTest, SuggestsBeatsForKeyPoses) {
               HasSubstr("--from: 7.12 s is not before --until, 3 s"));
   EXPECT_THAT(Choreo(analyze + "2 --from 12.5").said,
               HasSubstr("--from: 12.5 s is after the song's end at 12 s"));
-  // Between two moments, counting the beats of the whole song.
+  // Counts the beats of the whole song between two moments.
   const nlohmann::json part =
       nlohmann::json::parse(Choreo(analyze + "2 --from 3 --until 7 --json").said)["suggested_keys"];
   ASSERT_EQ(part.size(), 2U);
@@ -244,7 +244,7 @@ TEST_F(CommandTest, ConvertsBetweenAllFormats) {
         EXPECT_LT(error.position_m, 1e-5);
         EXPECT_LT(error.angle_deg, 1e-3);
       }
-      // At another rate: the same moments.
+      // Another rate gives the same moments.
       ASSERT_EQ(Choreo("convert " + At("a." + from) + " " + At("c." + to) + " --fps 50").code, 0);
       const Motion dense = ReadMotion(folder_ / ("c." + to), Body());
       EXPECT_EQ(dense.fps, 50);
@@ -404,7 +404,7 @@ TEST_F(CommandTest, FailsWithOneLineAndCodeOne) {
   expect_failure("info --deadline 0.3 --server 127.0.0.1:1", "127.0.0.1:1");
 }
 
-// Beside a choreod that is there at once.
+// A choreod that is ready at once.
 TEST_F(CommandTest, KeepsAServerForOthers) {
   std::filesystem::copy(CHOREO_PROGRAM, folder_ / "choreo");
   std::filesystem::create_symlink(FAKE_CHOREOD, folder_ / "choreod");
@@ -437,7 +437,7 @@ TEST_F(CommandTest, ExplainsItself) {
   EXPECT_EQ(Choreo("dance /absent.ogg").code, 2);
   EXPECT_THAT(Choreo("swim").said, HasSubstr("swim is no command; see --help"));
   EXPECT_THAT(Choreo("danse song.ogg").said, HasSubstr("danse is no command; did you mean dance?"));
-  // What would change nothing is not ignored without a word.
+  // Options that would change nothing are not ignored silently.
   EXPECT_THAT(Choreo("render /dev/null --out a.png --size 64x64").said,
               HasSubstr("--size requires --video"));
   EXPECT_THAT(Choreo("dance --style ''").said, HasSubstr("--style: is empty"));

@@ -13,13 +13,13 @@ using testing::HasSubstr;
 
 const Skeleton& Body() { return Skeleton::Smpl24(); }
 
-/// One that takes no music.
+/// A model that takes no music.
 class SilentSampler final : public ControlledSampler {
  public:
   SilentSampler() { model_.takes_music = false; }
 };
 
-/// One that draws nothing.
+/// A model that draws nothing at random.
 class DeterministicSampler final : public ControlledSampler {
  public:
   DeterministicSampler() { model_.deterministic = true; }
@@ -205,7 +205,7 @@ TEST_F(ControlledCommandTest, DeterministicModelHasNoAlternatives) {
                    server.address() + " -o " + At("e.npz"));
   ASSERT_EQ(outcome.code, 0) << outcome.said;
   EXPECT_THAT(outcome.said, changes_nothing("--seed"));
-  // There it chooses among the library's key poses.
+  // Here the seed chooses among the library's key poses.
   outcome = Choreo("dance --seconds 4 --seed 3" + to);
   EXPECT_THAT(outcome.said, testing::Not(HasSubstr("changes nothing")));
 }

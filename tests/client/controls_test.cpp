@@ -13,7 +13,7 @@ namespace choreo::client::controls_test {
 
 const Skeleton& Body() { return Skeleton::Smpl24(); }
 
-/// Dies with its server once it has made so many frames.
+/// Makes its server die after this many frames.
 class DyingSampler final : public ControlledSampler {
  public:
   explicit DyingSampler(int frames) : left_(frames) {}
@@ -110,7 +110,7 @@ TEST(ControlsTest, SurviveTheLossOfAServer) {
         result.motion.frames.insert(result.motion.frames.end(), block->poses.begin(),
                                     block->poses.end());
       }
-      // How fast parts were is measured from the resume on.
+      // The speeds of parts are measured from the resume on.
       const auto* warning = std::get_if<Warning>(&*message);
       if (warning != nullptr && !warning->message.starts_with("parts are not as fast"))
         result.warnings.push_back(*warning);
@@ -146,7 +146,7 @@ TEST(ControlsTest, OfATransitionAndOfAnEdit) {
       (result.candidates[0].motion.frames[100].root_position - Eigen::Vector3d(1, 0.7, 0.5)).norm(),
       1e-4);
 
-  // Without controls in the edit, as ever; with them the new frames have them.
+  // Only an edit with controls gives its new frames controls.
   const FinishedDance dance{result.candidates[0].motion, result.candidates[0].contacts};
   EditOptions options;
   options.model = client.GetServerInfo().models[0];

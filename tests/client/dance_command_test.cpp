@@ -122,7 +122,7 @@ TEST_F(CommandTest, DancesThroughTheExampleInWords) {
   EXPECT_TRUE(report["warnings"].empty()) << report["warnings"];
 }
 
-// The later key wins, as an animator would have it.
+// The later key replaces the earlier one, as animators expect.
 TEST_F(CommandTest, AKeyInAHoldEndsItInTimeForTheWay) {
   std::ofstream(folder_ / "keys.json")
       << R"({"keyframes": [{"id": "a", "time": 1, "pose": "stand", "hold": 3},
@@ -152,7 +152,7 @@ TEST_F(CommandTest, DancesWithoutKeysOnRequest) {
   EXPECT_EQ(Choreo("dance -k none" + Server()).code, 2);  // it says of no length
 }
 
-// What the command line says of beats counts; the rest of them, and of the project, stays.
+// Beats of the command line take precedence. The rest of the project's settings stay.
 TEST_F(CommandTest, OptionsOfBeatsWinOverTheProjects) {
   WriteClicks(folder_ / "song.wav", 6);  // a click every half second
   std::ofstream(folder_ / "p.json") << R"({"studio": 1, "song": "song.wav", "seconds": 6,
@@ -232,7 +232,7 @@ TEST_F(CommandTest, ADanceEndsInAPoseThatIsHeld) {
   expect_ending();
   dance("-k none");
   expect_ending();
-  // It stands where the last key does, and those after it make way.
+  // It stands at the last key's place, and replaces the keys after it.
   std::ofstream(folder_ / "keys.json")
       << R"({"keyframes": [{"id": "a", "time": 5, "pose": "stand", "place": [1, -0.5], "hold": 4},
                            {"id": "b", "time": 9.6, "pose": "kick", "place": [0, 0]}]})";

@@ -154,7 +154,7 @@ TEST_F(CommandTest, NamesAKeyAsItWasWritten) {
     EXPECT_THAT(outcome.said, HasSubstr(part));
     EXPECT_FALSE(std::filesystem::exists(folder_ / "song.npz"));
   };
-  // Sent in the order of their times: what the server calls keyframes[1] was written first.
+  // Keys are sent in the order of their times, so the server's keyframes[1] is the file's first.
   write("close.json", R"("id": "late", "frame": 61)", R"("id": "early", "frame": 60)");
   refused("-k " + At("close.json"), "close.json:keyframes[0]");
   refused("-k " + At("close.json"), "key \"late\"");
@@ -162,7 +162,7 @@ TEST_F(CommandTest, NamesAKeyAsItWasWritten) {
   refused("-k " + At("beyond.json"),
           "beyond.json:keyframes[1].time: key \"b\" at 12 s is after the dance's end: its last "
           "frame is at 3.97 s");
-  // Those that hold a pose are written as its hold.
+  // Keys that hold a pose are written as that pose's hold.
   write("held.json", R"("id": "a", "time": 1, "hold": 1)", R"("id": "b", "time": 12)");
   refused("-k " + At("held.json"), "held.json:keyframes[1].time: key \"b\" at 12 s is after");
   write("long.json", R"("id": "a", "time": 1)", R"("id": "b", "time": 2, "hold": 4)");
@@ -177,7 +177,7 @@ TEST_F(CommandTest, NamesAKeyAsItWasWritten) {
 
 TEST_F(CommandTest, ChecksItsOutputsBeforeItDances) {
   WriteClicks(folder_ / "song.wav", 3);
-  // No server is there: whoever got so far would say so.
+  // There is no server: a command that tried to connect would fail with another error.
   const auto refused = [&](const std::string& arguments, const std::string& part) {
     const Outcome outcome = Choreo(arguments + " --deadline 0.3 --server 127.0.0.1:1");
     EXPECT_EQ(outcome.code, 1) << outcome.said;
@@ -218,7 +218,7 @@ TEST_F(CommandTest, NoOutputDestroysAnotherOrAnInput) {
     EXPECT_THAT(outcome.said, HasSubstr(part));
     EXPECT_EQ(std::count(outcome.said.begin(), outcome.said.end(), '\n'), 1) << outcome.said;
   };
-  // No server is there: whoever got so far would say so.
+  // There is no server: a command that tried to connect would fail with another error.
   const std::string server = " --server 127.0.0.1:1 --deadline 0.3 ";
   const std::string dance = "dance " + At("song.wav") + server;
   refused(dance + "-o " + At("x.npz") + " --report " + At("./x.npz"),

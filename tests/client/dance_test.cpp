@@ -153,7 +153,7 @@ TEST(DanceTest, GivesUpAtItsDeadline) {
   TestServer server;
   const Client client({.addresses = {server.address()}, .deadline_s = 0.2});
   const auto dance = client.StartDance({.frames = 30});
-  // Nothing is ever granted, so no frame comes.
+  // Nothing is granted, so no frame comes.
   ExpectError(ErrorCode::kDeadlineExceeded, "", [&] {
     while (dance->Next()) {
     }
@@ -170,7 +170,7 @@ TEST(DanceTest, CanBeCancelledWhileItWaits) {
   canceller.join();
 }
 
-// To a server that accepts and never answers.
+// The server accepts connections and never answers.
 TEST(DanceTest, CanBeSteeredAndCancelledWhileItConnects) {
   const int mute = socket(AF_INET, SOCK_STREAM, 0);
   ASSERT_EQ(listen(mute, 1), 0);  // at a free port
@@ -322,7 +322,7 @@ TEST(ResumeTest, RestartsOnAnotherFingerprintIfAllowed) {
   {
     TestServer dying;
     TestServer heir;
-    // One that may not go on is left for one that may.
+    // The client leaves a server that may not continue for one that may.
     const Client strict(FastRetries({dying.address(), other.address(), heir.address()}));
     const auto [frames, resumed] = LoseBeforeContinuation(strict, &dying);
     EXPECT_EQ(frames, 90U);

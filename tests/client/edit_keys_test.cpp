@@ -36,7 +36,7 @@ TEST_F(EditTest, MovedKeyIsOnlyAtItsNewSecond) {
   EXPECT_EQ(keys[2]["id"], id);
   EXPECT_EQ(keys[2]["frame"], near);
 
-  // If it moves past its neighbour, the frames that it leaves are danced again, too.
+  // If the key moves past its neighbour, the frames it leaves are danced again, too.
   outcome = Edit(with_reports + "' " + Seconds(keys_[3] + 9));
   ASSERT_EQ(outcome.code, 0) << outcome.said;
   EXPECT_LE(off(keys_[3] + 9), 0.001);
@@ -70,7 +70,7 @@ TEST_F(EditTest, TimesAreAlsoCountsOfTheMusic) {
   EXPECT_THAT(without.said, HasSubstr("--at: 9c: counts need music that has beats; name a song"));
 }
 
-// The report's beats may be halved already.
+// The report's beats may already be halved.
 TEST_F(EditTest, TheReportsBeatsAreCountedAsAskedOrRefused) {
   std::ofstream(folder_ / "beats.txt") << "1\n2\n3\n4\n5\n6\n7\n8\n9\n";
   const std::string given = " --song " + At("song.wav") + " --beats " + At("beats.txt");
@@ -118,14 +118,14 @@ TEST_F(EditTest, NewFramesAreDancedAsTheReportSays) {
   EXPECT_THAT(edit(" --song none"), Not(HasSubstr("song.wav")));
   EXPECT_NE(ReadFile(folder_ / "new.npz"), as_before);
 
-  // A part begins later in its song.
+  // A part of a dance begins later in the song.
   ASSERT_EQ(Edit("--from 2 --report " + At("report.json") + " --new-report " + At("new.json") +
                  " -o " + At("new.npz"))
                 .code,
             0);
   EXPECT_EQ(ReadJson(folder_ / "new.json")["song_start"], 2);
 
-  // A song that has moved with its report is found; else that it is not is said.
+  // A song that moved together with its report is found. Otherwise the command says that it is not.
   std::filesystem::create_directory(folder_ / "other");
   std::filesystem::rename(folder_ / "song.wav", folder_ / "other" / "song.wav");
   EXPECT_THAT(edit(""), HasSubstr("song.wav, the song of "));
@@ -178,7 +178,7 @@ TEST_F(EditTest, AKeyInAHoldEndsIt) {
   EXPECT_THAT(outcome.said,
               HasSubstr("note: key \"a\" at 1 s makes way for \"kick\": it stands there\n"));
   EXPECT_EQ(held_to("new.json"), 0);
-  // What holds a key goes with it.
+  // A key's hold is removed with it.
   outcome = Edit("--key kick --at 0.9 -o " + At("new.npz") + reports);
   ASSERT_EQ(outcome.code, 0) << outcome.said;
   EXPECT_THAT(outcome.said, HasSubstr("\"a\" at 1 s makes way for \"kick\": it is less than"));
@@ -202,13 +202,13 @@ TEST_F(EditTest, AKeyThatLandsOnAnotherSaysWhichOneItReplaces) {
   outcome = Edit("--key kick --at " + there + with_report);
   ASSERT_EQ(outcome.code, 0) << outcome.said;
   EXPECT_THAT(outcome.said, note("kick"));
-  // One command sets one key there.
+  // One command cannot set two keys there.
   outcome = Edit("--key kick --at " + there + " --move '" + moved + "' " + there + with_report);
   EXPECT_EQ(outcome.code, 1);
   EXPECT_THAT(outcome.said, HasSubstr("s for \"kick\" is where this edit sets \"" + moved + "\""));
 }
 
-// Nobody asked for the rest to change.
+// An edit must not change what nobody asked it to change.
 TEST_F(EditTest, AKeyInAFreeDanceChangesTwoSecondsOnEachSide) {
   ASSERT_EQ(Choreo("dance -k none" + Server() + "--seconds 20 -o " + At("dance.npz") +
                    " --report " + At("report.json"))
@@ -226,18 +226,18 @@ TEST_F(EditTest, AKeyInAFreeDanceChangesTwoSecondsOnEachSide) {
   ExpectChanged("kick.npz", 91, 210);
   edit("--remove kick", "kick", "none");
   ExpectChanged("none.npz", 91, 210);
-  // Where it was, and where it is.
+  // At its old place and at its new one.
   edit("--move kick 15", "kick", "moved");
   const auto rows = ChangedRows(folder_ / "kick.npz", folder_ / "moved.npz", "rotations");
   EXPECT_EQ(rows, std::pair(size_t{91}, size_t{510}));
   const Motion before = Read("kick.npz"), moved = Read("moved.npz");
   for (size_t frame = 210; frame <= 390; ++frame)
     EXPECT_EQ(moved.frames[frame].rotations, before.frames[frame].rotations) << frame;
-  // A key near enough is where the edit ends.
+  // The edit ends at the next key if it is near enough.
   edit("--key dab --at 8.5", "kick", "both");
   EXPECT_EQ(ChangedRows(folder_ / "kick.npz", folder_ / "both.npz", "rotations"),
             std::pair(size_t{151}, size_t{315}));
-  // A hold that ends is danced anew to where it ended.
+  // A shortened hold is danced again up to its former end.
   edit("--key stand --at 5 --hold 8", "dance", "held");
   edit("--key dab --at 7", "held", "ended");
   EXPECT_EQ(ChangedRows(folder_ / "held.npz", folder_ / "ended.npz", "rotations").second, 450U);
@@ -265,7 +265,7 @@ TEST_F(EditTest, KeysInTheWayOfAPhraseAreNamed) {
               Not(testing::ContainsRegex("\"[abd]\" at . s makes way|3\\.. s makes")));
 }
 
-// As long as this one.
+// The other dance has the same length.
 TEST_F(EditTest, TheReportOfADanceThatLooksOtherwiseIsRefused) {
   const auto dance = [&](const std::string& pose, const std::string& name) {
     std::ofstream(folder_ / "keys.json")
@@ -288,7 +288,7 @@ TEST_F(EditTest, TheReportOfADanceThatLooksOtherwiseIsRefused) {
   outcome = Choreo(render + At("dance.json"));
   EXPECT_EQ(outcome.code, 0) << outcome.said;
   EXPECT_THAT(outcome.said, Not(HasSubstr("looks otherwise")));
-  // In whatever format and rate, and by earlier versions.
+  // Reports of any format, rate and earlier version are accepted.
   ASSERT_EQ(Choreo("convert " + At("dance.npz") + " " + At("dance.bvh")).code, 0);
   outcome = Choreo("edit " + At("dance.bvh") + Server() + "--key kick --at 4.5 --report " +
                    At("dance.json") + " -o " + At("n.npz"));
@@ -299,7 +299,7 @@ TEST_F(EditTest, TheReportOfADanceThatLooksOtherwiseIsRefused) {
   std::ofstream(folder_ / "old.json") << old.dump();
   outcome = Edit("--key kick --at 4.5 --report " + At("old.json") + " -o " + At("n.npz"));
   EXPECT_EQ(outcome.code, 0) << outcome.said;
-  // What other edits have set is not in the report.
+  // The report lacks what other edits have set.
   outcome = Choreo("edit " + At("n.npz") + Server() + "--key bow --at 2 --report " +
                    At("dance.json") + " --new-report " + At("new.json") + " -o " + At("m.npz"));
   EXPECT_EQ(outcome.code, 0) << outcome.said;
@@ -394,7 +394,7 @@ TEST_F(EditTest, OneOfSeveralKeysOfANameIsTheNearest) {
   std::ofstream(folder_ / "report.json") << report.dump();
   const double one =
       nlohmann::json::parse(Choreo("analyze --json " + At("song.wav")).said)["downbeats"][0];
-  // Counts are half a second long.
+  // A count lasts half a second.
   const auto count = [&](double second) { return std::to_string(1 + (second - one) * 2) + "c"; };
   const auto remove = [&](const std::string& time) {
     return Edit("--remove same@" + time + " --report " + At("report.json") + " --new-report " +
@@ -529,7 +529,7 @@ TEST_F(EditTest, LoopKeepsAHeldEnd) {
   EXPECT_EQ(looped["frames"], loop.frames.size());
   EXPECT_EQ(looped["keyframes"].size(), 3U + 2 + 5);
 
-  // What holds a key goes with it.
+  // A key's hold is removed with it.
   outcome = Edit("--move b 2.5 -o " + At("new.npz") + reports);
   ASSERT_EQ(outcome.code, 0) << outcome.said;
   const Motion moved = Read("new.npz");

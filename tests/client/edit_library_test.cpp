@@ -13,14 +13,14 @@ using testing::HasSubstr;
 
 const Skeleton& Body() { return Skeleton::Smpl24(); }
 
-/// A dance of the client library, standing still.
+/// A motion that stands still.
 client::FinishedDance Standing(size_t frames) {
   client::FinishedDance dance;
   dance.motion.frames.assign(frames, RestPose(Body()));
   return dance;
 }
 
-// Only the music of the new frames is sent: a song may be longer than a message.
+// Sends only the music of the new frames, because a song may be longer than a message.
 TEST(EditLibraryTest, SendsOnlyMusicAroundTheKey) {
   TestServer server(std::make_unique<HearingSampler>());
   const client::Client client({.addresses = {server.address()}});

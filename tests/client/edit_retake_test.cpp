@@ -84,7 +84,7 @@ TEST_F(RetakeTest, RefusesWhatIsNoStretch) {
   refused("30 40", "--retake: 30 s is after the dance");
 }
 
-// A model's transition lasts a minute at most.
+// A model's transition lasts at most a minute.
 TEST_F(RetakeTest, ATakeMayBeLongerThanATransition) {
   ASSERT_EQ(Choreo("dance -k none" + Server() + "--seconds 65 -o " + At("dance.npz") +
                    " --report " + At("report.json"))
@@ -150,7 +150,7 @@ TEST_F(RetakeTest, KeysMoveOntoAnotherPath) {
   ASSERT_EQ(outcome.code, 0) << outcome.said;
   const Motion led = Read("led.npz");
   EXPECT_EQ(ChangedRows(folder_ / "dance.npz", folder_ / "led.npz", "rotations").first, 61U);
-  // Half way; its end bends to the next key, which stays.
+  // Halfway, and its end bends to the next key, which stays.
   EXPECT_NEAR(led.frames[150].root_position.x(), (start.root_position.x() + 3) / 2, 0.1);
   EXPECT_NEAR(led.frames[150].root_position.z(), (start.root_position.z() + 1) / 2, 0.1);
   EXPECT_EQ(ReadJson(folder_ / "led.json")["keyframes"].size(),
@@ -202,7 +202,7 @@ TEST_F(RetakeTest, NewFramesFollowThePathAndTheVelocityOfTheReport) {
   edit("dance", "--retake 8.5 9.5");  // where the path has ended
   edit("dance", "--key bow --at 9 --hold 1");
   EXPECT_THAT(said, Not(HasSubstr("(frame 299): parts are not as fast"))) << "in the held pose";
-  // A cut dance has what is left of the path.
+  // A cut dance keeps the rest of the path.
   ASSERT_EQ(Choreo("edit " + At("dance.npz") + " --from 4 --mirror --report " + At("report.json") +
                    " -o " + At("part.npz") + " --new-report " + At("part.json"))
                 .code,

@@ -40,7 +40,7 @@ TEST_F(EditTest, AKeyChangesTheTwoIntervalsAroundItAlone) {
   ASSERT_EQ(outcome.code, 0) << outcome.said;
   ExpectChanged("new.npz", keys_[1] + 1, keys_[3]);
 
-  // The pose is there, where the dancer was.
+  // The pose is reached where the dancer was.
   const Motion before = Read("dance.npz");
   const Motion after = Read("new.npz");
   const Pose& there = after.frames[keys_[2]];
@@ -50,7 +50,7 @@ TEST_F(EditTest, AKeyChangesTheTwoIntervalsAroundItAlone) {
   EXPECT_LE(error.position_m, 0.001);
   EXPECT_LE(error.angle_deg, 0.1);
 
-  // The report names it, in the place of the key that stood there.
+  // The report lists it in place of the key that stood there.
   const auto reported = ReadJson(folder_ / "new.json")["keyframes"];
   ASSERT_EQ(reported.size(), keys_.size());
   EXPECT_EQ(reported[2]["id"], "kick");
@@ -68,7 +68,7 @@ TEST_F(EditTest, ReportKeepsWarningsOfUnchangedParts) {
                            At("warned.json") + " -o " + At("new.npz") + " --new-report ";
   const Outcome outcome = Edit(edit + At("new.json"));
   ASSERT_EQ(outcome.code, 0) << outcome.said;
-  // The way to keys_[3] is another one now.
+  // The motion to keys_[3] has changed.
   std::vector<size_t> frames;
   const nlohmann::json edited = ReadJson(folder_ / "new.json");
   for (const auto& warning : edited["warnings"]) {

@@ -17,7 +17,7 @@ std::string ReadFile(const std::string& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-/// Without what stands before the first letter of each line.
+/// Removes what precedes the first letter of each line.
 std::string WithoutIndentation(const std::string& text) {
   std::istringstream lines(text);
   std::string out;

@@ -75,7 +75,7 @@ TEST(FailoverTest, SkipsAReplicaOfAnotherFingerprint) {
   EXPECT_TRUE(danced.resumed[0].exact);
 }
 
-// Whoever reads the logs follows the dance.
+// A reader of the logs can follow the dance.
 TEST(FailoverTest, TheLogsNameTheCallInWhichTheDanceBegan) {
   const auto before = spdlog::default_logger();
   std::ostringstream log;
@@ -93,7 +93,7 @@ TEST(FailoverTest, TheLogsNameTheCallInWhichTheDanceBegan) {
   EXPECT_THAT(said, testing::HasSubstr(" from " + first[1].str() + ": OK"));
 }
 
-// The one that dies comes back meanwhile.
+// The dead replica is restarted meanwhile.
 TEST(FailoverTest, ReturnsToAReplicaOfTheSameFingerprint) {
   auto first = std::make_unique<TestServer>();
   const std::string address = first->address();
@@ -193,7 +193,7 @@ TEST(FailoverTest, SkipsADrainingAddress) {
   std::cout << "20 dances passed it\n";
 }
 
-// Its packets are lost without an error: the client goes to the next replica within seconds.
+// Packets are lost without an error. The client goes to the next replica within seconds.
 TEST(FailoverTest, LeavesASilentNetwork) {
   TestServer cut;
   TestServer heir;
@@ -214,7 +214,7 @@ TEST(FailoverTest, LeavesASilentNetwork) {
   EXPECT_EQ(danced.resumed[0].address, heir.address());
 }
 
-// Waiting is not silence: a server that has nothing to say still answers pings.
+// A server without anything to send still answers pings, so waiting does not count as silence.
 TEST(FailoverTest, LetsADancePauseLongerThanSilence) {
   TestServer server;
   Options options = Replicas({server.address()});

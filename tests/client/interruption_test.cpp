@@ -13,12 +13,12 @@
 #include "tests/client/test_music.h"
 #include "tests/support/eventually.h"
 
-/// Programs that get a signal to stop.
+/// How programs stop on a signal.
 namespace choreo::interruption_test {
 
 const Skeleton& Body() { return Skeleton::Smpl24(); }
 
-/// Takes its time, and counts.
+/// Slows frames down, and counts them.
 class SlowSampler final : public FakeSampler {
  public:
   explicit SlowSampler(std::atomic<int>* frames) : frames_(frames) {}

@@ -22,12 +22,12 @@
 #include "tests/support/eventually.h"
 #include "tests/support/sanitizers.h"
 
-/// Processes that are killed in the middle of a dance.
+/// What happens when processes are killed in the middle of a dance.
 namespace choreo::client::kill_test {
 
 using authoring::LocalServer;
 
-/// Servers of one kind, each a process.
+/// Identical servers, each a process of its own.
 class Servers {
  public:
   Servers(const std::filesystem::path& program, int count) {
@@ -35,7 +35,7 @@ class Servers {
     for (const auto& server : running_) addresses_.push_back(server->address());
   }
 
-  /// For a client of all of them, the killed ones too.
+  /// Options for a client of all servers, including killed ones.
   Options Patient() const {
     Options options;
     options.addresses = addresses_;
@@ -143,7 +143,7 @@ void PrintTo(const Killings& killings, std::ostream* out) {
 
 class KillTest : public testing::TestWithParam<Killings> {};
 
-// Of three replicas two are killed, each while it is dancing, at frames drawn at random.
+// Kills two of three replicas, each while it is dancing, at random frames.
 TEST_P(KillTest, TheDanceIsTheSameToTheBit) {
   const std::filesystem::path program = FAKE_CHOREOD;
   const bool with_keys = GetParam().with_keys;
@@ -206,7 +206,7 @@ Danced DanceEdited(const Client& client, const std::function<void(int)>& before_
     dance->GenerateUntil(std::min(240, 3 * piece + 10));
     dance->SendSamples(
         std::span(audio.samples).subspan(static_cast<size_t>(piece * kPiece), kPiece));
-    // What can be danced comes before more is said.
+    // Wait for all possible frames before sending more.
     while (static_cast<int64_t>(danced.motion.frames.size()) < 3 * piece - 3) {
       const std::optional<Message> message = dance->Next();
       if (!message) break;
@@ -219,7 +219,7 @@ Danced DanceEdited(const Client& client, const std::function<void(int)>& before_
   return danced;
 }
 
-// On the way to a key that has just been changed, too.
+// The same in a transition to a key that has just been changed.
 TEST(KillTest, EditsWithShortLookAheadSurvive) {
   const std::filesystem::path program = FAKE_CHOREOD;
   const Danced wanted = DanceEdited(Client(Servers(program, 1).Patient()), [](int) {});
@@ -234,7 +234,7 @@ TEST(KillTest, EditsWithShortLookAheadSurvive) {
   EXPECT_EQ(danced.resumes, 2);
 }
 
-// There is one address, and a server restarted there knows nothing of the dance.
+// With one address, a restarted server knows nothing of the dance.
 TEST(KillTest, RestartedServerResumes) {
   const std::filesystem::path program = FAKE_CHOREOD;
   Servers servers(program, 1);
@@ -250,7 +250,7 @@ TEST(KillTest, RestartedServerResumes) {
   EXPECT_EQ(danced.resumes, 1);
 }
 
-// The server that people run, with the model that ships.
+// choreod itself, with the shipped model.
 TEST(KillTest, ShippedModelResumesBitForBit) {
   if (kSanitized) GTEST_SKIP() << "choreod runs LibTorch";
   const std::filesystem::path program = CHOREOD_PROGRAM;
@@ -265,7 +265,7 @@ TEST(KillTest, ShippedModelResumesBitForBit) {
   EXPECT_EQ(danced.resumes, 1);
 }
 
-// The other way round: a client's process is killed while it is served.
+// Here the client's process is killed while it is served.
 TEST(KillTest, KilledClientFreesItsPlaces) {
   TestServer server;
   std::vector<std::string> arguments = {

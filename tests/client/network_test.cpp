@@ -13,7 +13,7 @@
 #include "tests/support/expect_error.h"
 #include "tests/support/setting.h"
 
-/// A server behind a network that loses, delays and disorders packets, or is not there for a while.
+/// A server behind a network that loses, delays and reorders packets, or fails for a while.
 /// CHOREO_FAULT_SECONDS makes the dances longer (scripts/faults.sh).
 namespace choreo::client::network_test {
 
@@ -60,7 +60,7 @@ class NetworkTest : public testing::Test {
     int resumes = 0;
   };
 
-  // A dance to grants in real time, or to one for all of it.
+  // Dances with grants in real time, or with one grant for all frames.
   static Danced Dance(uint64_t seed, int64_t frames, bool in_time) {
     const Client client(ClientOptions(250));
     const auto dance = client.StartDance({.seed = seed, .frames = frames, .generate_until = 0});
@@ -161,7 +161,7 @@ TEST_F(NetworkTest, IdleClientLosesNothing) {
   EXPECT_EQ(resumes, 0);
 }
 
-// More of them than there are places: those whose clients are out of reach come back.
+// More calls than places: the places of unreachable clients become free again.
 TEST_F(NetworkTest, UnreachableClientsFreeTheirPlaces) {
   constexpr int kCalls = 6;
   for (int i = 0; i < kCalls; ++i) {

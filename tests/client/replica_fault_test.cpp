@@ -13,7 +13,7 @@
 #include "tests/support/eventually.h"
 #include "tests/support/setting.h"
 
-/// Three replicas, many dances in real time, and one server after the other that is killed or falls
+/// Many dances in real time on three replicas, of which one after another is killed or falls
 /// silent. CHOREO_FAULT_STREAMS and CHOREO_FAULT_SECONDS make it longer (scripts/faults.sh).
 namespace choreo::client::replica_fault_test {
 
@@ -36,13 +36,13 @@ class Fleet {
     ::unsetenv("CHOREO_MAX_STREAMS");
     for (const auto& replica : replicas_) addresses_.push_back(replica->address());
   }
-  /// Those of the replicas, another one first for each `turn`.
+  /// The replicas' addresses, with another one first for each `turn`.
   std::vector<std::string> Addresses(int turn) const {
     std::vector<std::string> turned = addresses_;
     std::ranges::rotate(turned, turned.begin() + turn % kReplicas);
     return turned;
   }
-  /// Gone without a word; back after a while.
+  /// Kills a replica, and restarts it after a while.
   void Kill(int which) {
     auto& replica = replicas_[static_cast<size_t>(which)];
     ASSERT_EQ(::kill(replica->process(), SIGKILL), 0);
@@ -51,7 +51,7 @@ class Fleet {
     ::setenv("CHOREO_MAX_STREAMS", "1000", 1);
     replica = std::make_unique<LocalServer>(FAKE_CHOREOD, addresses_[static_cast<size_t>(which)]);
   }
-  /// Alive, but silent for a while.
+  /// Stops a replica's process for a while.
   void Silence(int which) {
     const pid_t process = replicas_[static_cast<size_t>(which)]->process();
     ASSERT_EQ(::kill(process, SIGSTOP), 0);

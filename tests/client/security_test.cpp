@@ -98,7 +98,7 @@ TEST_F(TlsTest, OnlyTrustingClientsConnect) {
   EXPECT_EQ(health.code, 0) << health.said;
 }
 
-// A restart does not mend it, so probes for life do not mind it.
+// A restart would not renew the certificate, so liveness probes ignore it.
 TEST_F(TlsTest, AServerWithAnExpiredCertificateIsAlive) {
   const Certificate late = authority_.IssueExpired("late"), own = authority_.Issue("own");
   const auto server = Start([&](ServerConfig& config) {
@@ -109,12 +109,12 @@ TEST_F(TlsTest, AServerWithAnExpiredCertificateIsAlive) {
                              own.certificate.string() + " --client-key " + own.key.string();
   const Outcome trusting = Choreo(health + " --ca " + authority_.certificate().string());
   EXPECT_EQ(trusting.code, 1) << trusting.said;
-  // With another authority's file, or none; and no token goes there.
+  // Another authority's file or none is accepted, and no token is sent.
   for (const char* ca : {"", " --ca /missing.pem --token-file /missing"}) {
     const Outcome alive = Choreo(health + ca + " --any-certificate");
     EXPECT_EQ(alive.code, 0) << alive.said;
   }
-  // The client's own certificate is needed all the same; probes take it from the environment.
+  // The client still needs its own certificate. Probes take it from the environment.
   const std::string probe = "health --server " + server->address() + " --tls --any-certificate";
   EXPECT_EQ(Choreo(probe).code, 1);
   ::setenv("CHOREO_CLIENT_CERT", own.certificate.c_str(), 1);
@@ -150,7 +150,7 @@ TEST_F(TlsTest, ARenewedCertificateIsShownWithoutARestart) {
   const Client before(Trusting(*server, authority_));
   const auto dance = before.StartDance({.frames = 100});
   ASSERT_TRUE(dance->Next());
-  // For a moment the two do not go together, as where files are copied one by one.
+  // For a moment key and certificate do not match, as when files are copied one by one.
   const Certificate renewed = stranger_.Issue("renewed");
   std::filesystem::copy(renewed.key, own.key, std::filesystem::copy_options::overwrite_existing);
   EXPECT_TRUE(Serves(Trusting(*server, authority_)));
@@ -255,7 +255,7 @@ TEST_F(TlsTest, AnExpiredClientAuthorityReplacesNoOther) {
   EXPECT_EQ(files.Refresh(), false);
   EXPECT_EQ(content(files.client_ca()), valid);
   EXPECT_THAT(log.text(), HasSubstr("[error] --tls-client-ca: " + ca.string() + " expired on 20"));
-  // One of several may have expired.
+  // One of several authorities may have expired.
   write(expired + valid);
   EXPECT_EQ(files.Refresh(), true);
   EXPECT_EQ(content(files.client_ca()), expired + valid);
@@ -263,7 +263,7 @@ TEST_F(TlsTest, AnExpiredClientAuthorityReplacesNoOther) {
   EXPECT_THAT(log.text(), Not(HasSubstr("--tls-cert: a new one")));
 }
 
-// What expired in use stays, and the rest can still be renewed.
+// An authority that expired in use stays, and the certificate can still be renewed.
 TEST_F(TlsTest, ACertificateIsRenewedBesideAnExpiredClientAuthority) {
   const LogCapture log;
   const Certificate own = authority_.Issue("own"), renewed = authority_.Issue("renewed"),
@@ -299,7 +299,7 @@ TEST_F(TlsTest, ClientsShowARequiredCertificate) {
   EXPECT_TRUE(serving(authority_.Issue("guest")));
 }
 
-// gRPC names no peer, so this cannot be more than likely.
+// gRPC names no peer, so the server can only name the likely one.
 TEST_F(TlsTest, FailedHandshakesAreCountedAndTheirPeersNamed) {
   const LogCapture log;
   const Certificate own = authority_.Issue("own"), guest = authority_.Issue("guest"),
@@ -308,7 +308,7 @@ TEST_F(TlsTest, FailedHandshakesAreCountedAndTheirPeersNamed) {
     Serve(own, config);
     config.tls_client_ca = authority_.certificate();
   });
-  // Clients are other processes: their own failures would be counted, too.
+  // Clients are other processes, because failures on their side would be counted, too.
   const auto attempt = [&](const std::string& command, size_t fault) {
     SCOPED_TRACE(kHandshakeFaults[fault]);
     const HandshakeFaults before = CountedHandshakeFaults();
@@ -326,14 +326,14 @@ TEST_F(TlsTest, FailedHandshakesAreCountedAndTheirPeersNamed) {
   attempt(trusting + " --client-cert " + intruder.certificate.string() + " --client-key " +
               intruder.key.string(),
           1);
-  // gRPC's clients do not say it; others do.
+  // gRPC's clients do not report this to the server; others do.
   attempt("openssl s_client -connect " + server->address() +
               " -alpn h2 -verify_return_error -CAfile " + stranger_.certificate().string() +
               " -cert " + guest.certificate.string() + " -key " + guest.key.string() +
               " </dev/null",
           2);
   attempt(health, 3);
-  // It says nothing until the server hangs up.
+  // The client sends nothing until the server closes the connection.
   std::string silent = server->address();
   silent.replace(silent.rfind(':'), 1, "/");
   attempt("bash -c 'cat < /dev/tcp/" + silent + "; exit 1'", 5);
@@ -366,7 +366,7 @@ TEST_F(TlsTest, FilesThatCannotBeUsedAreNamed) {
               [&] { Client({.tls = true, .client_certificate = own.certificate}); });
 }
 
-// OpenSSL would ask for the passphrase on the terminal, and wait.
+// OpenSSL would wait for the passphrase on the terminal.
 TEST_F(TlsTest, AKeyWithAPassphraseIsRefused) {
   const Certificate own = authority_.Issue("own");
   const std::filesystem::path locked = folder_ / "locked.key";
@@ -424,7 +424,7 @@ class TokensTest : public SecurityTest {
   void Write(const std::string& name, const std::string& text) {
     std::ofstream(folder_ / name) << text;
   }
-  // What stands in the server's file.
+  // The token's line in the server's file.
   std::string LineOf(const std::string& token, const std::string& holder) {
     Write("plain", token);
     const std::string hash = Shell("sha256sum " + (folder_ / "plain").string()).said.substr(0, 64);
@@ -463,7 +463,7 @@ TEST_F(TokensTest, HoldersAreServedUntilRemoval) {
   EXPECT_TRUE(Serves(With(*server, "b")));
 }
 
-// Whatever happens to the file, removed holders stay refused.
+// Removed holders stay refused, whatever happens to the file.
 TEST_F(TokensTest, BrokenFileAdmitsNobody) {
   const std::filesystem::path file = folder_ / "tokens";
   const std::string alice = LineOf("a", "alice"), bob = LineOf("b", "bob");
@@ -512,7 +512,7 @@ TEST_F(TokensTest, AnEmptiedFileRevokesAll) {
                                     " holds no token, no line \"SHA256 NAME\"; nobody is let in"));
 }
 
-// It might come back in a moment: what cannot be read revokes nobody's dance.
+// A file that cannot be read may come back in a moment, so it revokes no dance.
 TEST_F(TokensTest, AnUnreadableFileEndsNoDance) {
   Write("tokens", LineOf("a", "alice"));
   Tokens tokens(folder_ / "tokens");
@@ -529,7 +529,7 @@ TEST_F(TokensTest, AnUnreadableFileEndsNoDance) {
   EXPECT_TRUE(tokens.IsRevoked(hash));
 }
 
-// It is another file, or its writer has failed half-way.
+// This may be another file, or one whose writer failed halfway.
 TEST_F(TokensTest, AFileOfBadLinesKeepsTheFormerTokens) {
   const LogCapture log;
   Write("tokens", LineOf("a", "alice"));
@@ -551,7 +551,7 @@ TEST_F(TokensTest, AFileOfBadLinesKeepsTheFormerTokens) {
   EXPECT_FALSE(knows_alice());
 }
 
-// All come from one address, as behind one back end.
+// All callers have one address, like those behind one back end.
 TEST_F(TokensTest, EachHolderHasItsOwnPlaces) {
   Write("tokens", LineOf("a", "alice") + LineOf("b", "bob"));
   const auto server = Start([&](ServerConfig& config) {
@@ -601,7 +601,7 @@ TEST_F(TokensTest, NoneIsLogged) {
   EXPECT_THAT(log.text(), Not(HasSubstr("horse")));
 }
 
-// `openssl rand -hex 32` looks like a hash.
+// A token made by `openssl rand -hex 32` looks like a hash.
 TEST_F(TokensTest, ARawTokenInTheFileIsTold) {
   const LogCapture log;
   const std::string raw(64, '7');

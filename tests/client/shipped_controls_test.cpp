@@ -16,7 +16,7 @@
 #include "tests/support/sanitizers.h"
 #include "tests/support/temporary_folder.h"
 
-/// What the model that ships does with controls, in the server that people run.
+/// How the shipped model follows controls, in choreod itself.
 namespace choreo::client::shipped_controls_test {
 
 constexpr int kFrames = 241;
@@ -47,7 +47,7 @@ class ShippedControlsTest : public testing::Test {
     }
     return path;
   }
-  /// Through four poses of the library, which say nothing of where they are.
+  /// Dances through four poses of the library, which have no place of their own.
   static DanceResult Dance(const ControlRequest& controls, uint64_t seed = 0) {
     std::vector<KeyPose> keys;
     for (const auto& [id, frame] :
@@ -163,7 +163,7 @@ TEST_F(ShippedControlsTest, ReportsPartSpeedsAndMissedOnes) {
   EXPECT_GT(asked, 0);
   EXPECT_GT(arm, 0);
   EXPECT_EQ(dance.report.part_speeds[3].asked, 0);
-  // Who walks can't keep a leg still.
+  // A walking dancer cannot keep a leg still.
   ASSERT_EQ(dance.warnings.size(), 1U);
   EXPECT_THAT(dance.warnings[0].message, testing::HasSubstr("left_leg"));
   EXPECT_THAT(dance.warnings[0].message, testing::HasSubstr(" instead of 0"));

@@ -4,7 +4,7 @@
 #include "tests/client/command_fixture.h"
 #include "tests/client/test_server.h"
 
-/// Users learn which styles show before they look for them in vain.
+/// `info` tells which styles are visible, so that nobody looks for others in vain.
 namespace choreo::styles_test {
 
 using testing::HasSubstr;

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-/// Moments are told in the unit that the user has used.
+/// Messages give times in the unit that the user has used.
 namespace choreo::cli::told_times_test {
 
 TEST(ToldTimes, AreSecondsOrCounts) {

@@ -32,7 +32,7 @@ client::KeyPose KeyAt(int64_t frame, double x) {
   return key;
 }
 
-/// By the server's word, the key is hit.
+/// According to the server, the key is hit.
 client::Report Hit(int64_t frame) {
   client::Report report;
   report.keys.push_back({.id = "a", .frame = frame});
