@@ -13,7 +13,7 @@
 
 namespace choreo::audio_feed_test {
 
-// Of a model that hears the bands themselves.
+// The features of a model that takes the mel bands themselves.
 const Hearing kHearing = {kMelBands, [](std::span<const double> bands, std::span<float> features) {
                             std::ranges::copy(bands, features.begin());
                           }};

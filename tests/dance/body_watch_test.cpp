@@ -65,7 +65,7 @@ TEST(BodyWatch, AFlightIsToldOnceAcrossTransitions) {
   EXPECT_EQ(told[0].limit, kLongestFlight);
 }
 
-// Whoever lies, sits or stands on the hands does not fly.
+// A dancer who lies, sits or stands on the hands does not fly.
 TEST(BodyWatch, HandsOnTheFloorAreNoFlight) {
   Pose pose = RestPose(Body());
   pose.rotations.col(0).x() = M_PI;  // head down

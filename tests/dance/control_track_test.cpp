@@ -190,7 +190,7 @@ TEST_F(ControlTrackTest, WithoutHistoryStartsOnThePath) {
   EXPECT_EQ(track_.Stance(0, {}).root_position.x(), 0);
   EXPECT_NEAR(track_.Stance(30, {}).root_position.x(), 4, 1e-9);
   EXPECT_NEAR(track_.Stance(30, {}).root_position.y(), standing_, 1e-9) << "at rest, not crouched";
-  // What a key on the first frame asks is done already.
+  // A key on the first frame is already reached.
   AimAt(7);
   target_->pose.rotations(2, 16) = 1;
   EXPECT_EQ(track_.Stance(30, target_).root_position.x(), 7);
@@ -225,7 +225,7 @@ TEST_F(ControlTrackTest, KeyOverridesThePathWithAWarning) {
   AimAt(0.92);  // within 5 cm
   EXPECT_TRUE(For(0, 90).warnings.empty());
   EXPECT_NEAR(For(0, 90).controls[kRootPath].values(0, 89), 0.92, 1e-9);
-  // A key that asks nothing of where the dancer is contradicts no path.
+  // A key without a place contradicts no path.
   AimAt(5);
   target_->mask.root_position = false;
   EXPECT_TRUE(For(0, 90).warnings.empty());

@@ -127,13 +127,13 @@ TEST_F(ControlledDanceTest, KeysAreHitAndPathsBendToThem) {
   ASSERT_EQ(dance.warnings.size(), 1u);
   EXPECT_EQ(dance.warnings[0].code, Warning::Code::kKeyOffPath);
   EXPECT_THAT(dance.warnings[0].message, HasSubstr("key \"beside\" lies 0.5"));
-  // No jump on the way there and back.
+  // Neither on the way there nor back is there a jump.
   for (size_t i = 1; i < dance.poses.size(); ++i) {
     EXPECT_LT((dance.poses[i].root_position - dance.poses[i - 1].root_position).norm(), 0.05) << i;
   }
 }
 
-// The same pose again and again, as a hold is sent.
+// Repeats a pose, as clients send holds.
 TEST_F(ControlledDanceTest, APathWaitsWhileAPoseIsHeld) {
   Pose pose = KeyAt(1.1, 1.1);
   pose.rotations(2, 16) = 1;
@@ -150,13 +150,13 @@ TEST_F(ControlledDanceTest, APathWaitsWhileAPoseIsHeld) {
                  AtFrame{frame});
     });
     ASSERT_TRUE(dance.summary) << dance.error->what();
-    // The key is off the path; those that hold it are nowhere else.
+    // The key is off the path; the keys that hold it stay at its place.
     EXPECT_EQ(dance.warnings.size(), has_place ? 1u : 0u);
     const double stands = has_place ? 1.1 : on_path;
     for (size_t frame = 120; frame <= 150; ++frame)
       EXPECT_NEAR(dance.poses[frame].root_position.x(), stands, 1e-3) << frame;
     EXPECT_NEAR(dance.poses[240].root_position.x(), 3.0 * 240 / 299, 1e-3);
-    // She stops and sets out without a jerk: 0.3 m/s in a frame are 9 m/s^2.
+    // The dancer stops and starts without a jerk: 0.3 m/s in a frame are 9 m/s^2.
     Eigen::Vector3d step = dance.poses[100].root_position - dance.poses[99].root_position;
     for (size_t frame = 101; frame < 240; ++frame) {
       const Eigen::Vector3d next =
@@ -197,7 +197,7 @@ TEST_F(ControlledDanceTest, AKeyWithoutAPlaceStandsOnTheFloor) {
       }
     }
   }
-  // A path with heights wins.
+  // A path with heights takes precedence.
   ControlRequest jump = PathRequest(0, 299, 0, 2);
   jump.root_path->heights = {1.2, 1.2};
   const Recording high = Perform([&](DanceStream& s) {
@@ -265,7 +265,7 @@ TEST_F(ControlledDanceTest, ResumesBitForBitWhereverItBroke) {
   const Recording whole = Perform(messages);
   ASSERT_TRUE(whole.summary) << whole.error->what();
   ASSERT_GE(whole.continuations.size(), 4u);
-  // How fast parts were is measured from the resume on.
+  // The speeds of parts are measured from the resume on.
   const auto told = [](const Recording& dance) {
     return dance.warnings.size() -
            static_cast<size_t>(

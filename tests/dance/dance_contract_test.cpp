@@ -10,7 +10,7 @@
 
 #include "tests/dance/dances.h"
 
-// What a stream answers to input that is wrong or comes at the wrong moment.
+// How a stream answers invalid input, or input at the wrong moment.
 namespace choreo::dance_contract_test {
 
 class DanceContract : public ::testing::Test {
@@ -157,7 +157,7 @@ TEST_F(DanceContract, StoppingTheQueueEndsDancesAfterTheRunningTransition) {
   const auto queue = FakeQueue();
   auto sink = std::make_shared<Recorder>();
   DanceStream stream(*queue, Checked(*queue, dance.config), sink);
-  // Paused at its first frames, it is surely under way when the stop comes.
+  // It pauses at its first frames, so it is under way when the stop comes.
   std::promise<void> began;
   std::once_flag once;
   sink->on_frames = [&](size_t) {
@@ -238,7 +238,7 @@ TEST_F(DanceContract, LatencyIncludesTheModelsLookAhead) {
   EXPECT_EQ(LatencyFrames(config, HearingSampler().model()), 10 + 4 * kTypicalFrames);
 }
 
-// One that is not trained for more.
+// A model that is not trained for longer transitions.
 class CalmSampler : public FakeSampler {
  public:
   CalmSampler() { model_.max_temperature = 1.25; }

@@ -176,5 +176,5 @@ TEST(DanceStream, MovingAndTurningTheSceneMovesTheDance) {
   }
 }
 
-// A message that is refused leaves everything as it was.
+// A refused message changes nothing.
 }  // namespace choreo::dance_determinism_test

@@ -16,14 +16,14 @@ namespace choreo::dance_music_test {
 
 const ModelInfo model;  // at 30 frames a second
 
-// The beats of a transition that begins.
+// Returns the beats of a transition that begins.
 std::vector<Beat> Begin(DanceMusic* music, BeatReport* report, int64_t from, int64_t to) {
   const std::vector<Beat> beats = music->PlanFor({from, to}, from).Hear().beats;
   report->Start(beats, from);
   return beats;
 }
 
-// Of a song that beats every half second.
+// The beats of a song with a beat every half second.
 double Off(double seconds) { return std::abs(seconds - 0.5 * std::round(2 * seconds)); }
 
 // 22 050 Hz.
@@ -68,7 +68,7 @@ TEST(MusicBeats, LiveDanceDetectsThem) {
   }
 }
 
-// Reported beats are those of the dance.
+// The dance uses the beats that are reported.
 TEST(MusicBeats, TheDanceIsTimedToThem) {
   const auto queue = FakeQueue();
   Dance dance = LiveDance(42, 12);
@@ -157,7 +157,7 @@ TEST(MusicBeats, ArePureInTheSamples) {
       stream.PushAudio(
           std::span(dance.samples).subspan(static_cast<size_t>(at), static_cast<size_t>(end - at)),
           at);
-      // Each piece is danced before the next one comes.
+      // Each piece is danced before the next one arrives.
       const int64_t frames = (end - 1024) / 735;
       if (frames > 0) sink->WaitForFrames(static_cast<size_t>(frames));
     }
@@ -170,7 +170,7 @@ TEST(MusicBeats, ArePureInTheSamples) {
   }
 }
 
-// A DJ's program knows better.
+// Beats of a DJ's program take precedence over detected ones.
 TEST(MusicBeats, MayBeGivenDuringTheDance) {
   const auto queue = QueueOf<FakeSampler>();
   Dance dance = LiveDance(45, 16);

@@ -99,7 +99,7 @@ TEST_F(DanceScoreTest, AMessageOvertakesATransition) {
   EXPECT_TRUE(score.Overtakes(20));
 }
 
-// Workers prepare transitions while messages come.
+// Workers prepare transitions while messages arrive.
 TEST_F(DanceScoreTest, LaterMessagesChangeNothingOfATransition) {
   DanceConfig config;
   config.audio = DanceConfig::Audio{22050, 1, 0};

@@ -169,7 +169,7 @@ TEST(DanceStream, CancellationEndsItOnce) {
   EXPECT_TRUE(Perform(*queue, RandomDance(19)).summary);
 }
 
-// The only worker makes what can be danced, and the first is the same as alone.
+// The only worker serves the dance that can continue, and the first dance is the same as alone.
 TEST(DanceStream, WaitingForMusicBlocksNobody) {
   const auto queue = QueueOf<FakeSampler>();
   DanceConfig config;
@@ -215,7 +215,7 @@ TEST(DanceStream, TheNextTransitionIsSampledWhileOneIsHandedOut) {
   EXPECT_EQ(queue->stats().transitions, dance.keys.size());
 }
 
-// The thread may be gRPC's, which serves other calls, too.
+// The thread may be one of gRPC's, which also serves other calls.
 TEST(DanceStream, AThreadThatResumesADanceHandsOutAFewFrames) {
   const auto queue = FakeQueue();
   const auto sink = std::make_shared<Recorder>();
@@ -235,7 +235,7 @@ TEST(DanceStream, AThreadThatResumesADanceHandsOutAFewFrames) {
   EXPECT_LE(handed_out_here, kFramesASlice);
 }
 
-// However the dance ends, it releases its listener.
+// A dance releases its listener, however it ends.
 TEST(DanceStream, FreesAllOfADance) {
   const auto queue = FakeQueue();
   for (const bool whole : {true, false}) {
@@ -283,7 +283,7 @@ class BrokenSampler : public FakeSampler {
   int frames_ = 0;
 };
 
-// The transitions before are handed out.
+// The transitions before the failed one are delivered.
 TEST(DanceStream, BrokenModelEndsOnlyItsDance) {
   const auto queue = QueueOf<BrokenSampler>();
   Dance dance = RandomDance(21);

@@ -31,7 +31,7 @@ class MailboxTest : public testing::Test {
       heard.callers.push_back(std::this_thread::get_id());
     };
   }
-  /// A thread in the midst of a call; it goes on when `gate` opens.
+  /// A thread within a call, which continues when `gate` opens.
   std::thread Enter() {
     mailbox.Post([this](Listener&) {
       entered.set_value();

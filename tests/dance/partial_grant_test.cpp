@@ -5,7 +5,7 @@
 
 #include "tests/dance/dances.h"
 
-/// Frames are sent as far as they are granted, and later ones may still change.
+/// Frames are sent up to the grant, and later frames may still change.
 namespace choreo::partial_grant_test {
 
 using Step = std::function<void(DanceStream&)>;
@@ -66,7 +66,7 @@ TEST_F(PartialGrantTest, GrantsOf1And7AndAllFramesGiveEqualBits) {
   }
 }
 
-// Keys that come before the first grant freeze nothing that it does not grant.
+// Keys sent before the first grant freeze no frames beyond it.
 TEST_F(PartialGrantTest, KeysFreezeNothing) {
   Dance dance = Editable(52);
   auto sink = std::make_shared<Recorder>();
@@ -106,7 +106,7 @@ TEST_F(PartialGrantTest, EditAfterTheFrontierChangesOnlyLaterFrames) {
   EXPECT_LT(changed.reached[1].final_error_m, 1e-3);
   EXPECT_EQ(changed.continuations[1].frame, 90) << "there it was cut";
   EXPECT_TRUE(SameDance(changed, Play(dance, edited, false))) << "whatever has been danced by then";
-  // A key moved and moved back changes nothing.
+  // A key that is moved and moved back changes nothing.
   edited = begin;
   edited.push_back(SendKeyStep(moved));
   edited.push_back(SendKeyStep(dance.keys[1]));

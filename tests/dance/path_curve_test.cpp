@@ -31,7 +31,7 @@ TEST(PathCurve, LeadsThroughItsPointsWithoutAKink) {
   for (size_t i = 0; i < kFrames.size(); ++i) {
     EXPECT_LT((curve.At(kFrames[i]).position - kCorners[i]).norm(), 1e-12);
   }
-  // Its velocity is what its positions do, on both sides of every point.
+  // The velocity matches the positions on both sides of every point.
   for (int64_t frame = 1; frame < 190; ++frame) {
     const Eigen::Vector3d back = curve.At(frame).position - curve.At(frame - 1).position;
     const Eigen::Vector3d ahead = curve.At(frame + 1).position - curve.At(frame).position;
@@ -51,7 +51,7 @@ TEST(PathCurve, WalksAStraightLineEvenly) {
 }
 
 TEST(PathCurve, TracesACircle) {
-  // A point each half second on a walk of ten seconds.
+  // A walk of ten seconds has a point each half second.
   std::vector<int64_t> frames;
   std::vector<Eigen::Vector3d> points;
   const auto on_circle = [](double frame) {
@@ -150,7 +150,7 @@ TEST_F(LeadTest, ReturnsSmoothlyToTheCurve) {
   EXPECT_LT((lead.path.col(27) - curve_.At(127).position).norm(), 1e-12);
 }
 
-// A dancer who waited for the curve, or held a pose on it, sets out without a jerk.
+// A dancer who waited before the path, or held a pose on it, starts without a jerk.
 TEST_F(LeadTest, SetsOutFromRest) {
   request_.start.velocity.setZero();
   const Lead lead = LeadPath(request_);
@@ -166,7 +166,7 @@ TEST_F(LeadTest, ComesToRestOnTheCurve) {
   EXPECT_LT((lead.path.col(89) - curve_.At(189).position).norm(), 1e-12);
   EXPECT_LT((lead.path.col(89) - lead.path.col(88)).norm(), 0.1 * curve_.At(189).velocity.norm());
   EXPECT_LT((lead.path.col(60) - curve_.At(160).position).norm(), 1e-12);
-  // It does so on the curve, not beside it.
+  // The dancer does so on the path, not beside it.
   for (int frame = 65; frame < 90; ++frame) {
     double nearest = 1;
     for (double at = 160; at < 190; at += 0.01)

@@ -8,12 +8,12 @@
 
 #include "tests/dance/dances.h"
 
-/// Live dances of messages in random order, taken up again wherever they can be.
+/// Live dances with messages in random order, resumed wherever that is possible.
 namespace choreo::random_resume_test {
 
 using Message = std::function<void(DanceStream&)>;
 
-/// What clients say that make mistakes.
+/// Messages of clients that make mistakes.
 Message Tried(Message message) {
   return [message = std::move(message)](DanceStream& stream) {
     try {

@@ -8,7 +8,7 @@
 #include "tests/dance/dances.h"
 #include "tests/support/expect_error.h"
 
-/// Music that comes back, and the dance with it.
+/// Music that repeats, and a dance that repeats with it.
 namespace choreo::recurrence_test {
 
 using ::testing::ElementsAre;

@@ -29,7 +29,7 @@ Recording Resume(SampleQueue& queue, const Dance& dance, const Continuation& con
   return sink->WaitForEnd();
 }
 
-// The last ones of the whole dance, without the first `told`.
+// Expects the beats of the whole dance but for the first `told`.
 void ExpectSameBeats(const Recording& whole, const Recording& rest, size_t told) {
   ASSERT_EQ(rest.beats.size(), whole.beats.size() - told);
   for (size_t i = 0; i < rest.beats.size(); ++i) {
@@ -40,7 +40,7 @@ void ExpectSameBeats(const Recording& whole, const Recording& rest, size_t told)
   }
 }
 
-/// Keys, in order of time, how exactly they were reached, and with which hands.
+/// Keys in order of time, with their errors and hands.
 auto Figures(const std::vector<KeyReached>& keys) {
   std::vector<
       std::tuple<int64_t, std::string, double, double, double, double, std::optional<HandPose>>>
@@ -66,7 +66,7 @@ void ExpectResumesEverywhere(SampleQueue& queue, const Dance& dance,
     const Continuation& continuation = whole.continuations[place];
     const Recording rest = Resume(queue, dance, continuation, messages);
     ASSERT_TRUE(rest.summary) << rest.error->what();
-    // Keys reached before are reported again, and counted.
+    // Keys that were reached before the resume are reported and counted again.
     EXPECT_EQ(Figures(rest.reached), Figures(whole.reached)) << "from frame " << continuation.frame;
     EXPECT_EQ(Figures(rest.summary->keys), Figures(whole.summary->keys));
     if (&continuation == &whole.continuations.back()) {
@@ -248,7 +248,7 @@ TEST(Resume, AudioMustBeginEarlyEnough) {
     EXPECT_EQ(error.code(), ErrorCode::kOutOfRange);
     EXPECT_THAT(error.what(), ::testing::HasSubstr(std::to_string(latest)));
   }
-  // Who listens for beats needs more of it.
+  // Beat detection needs more music.
   config.audio->first_sample = latest;
   config.continuation->audio_from_sample = latest - 1;
   EXPECT_THROW(ValidDance(config, queue->model()), Error);

@@ -117,7 +117,7 @@ TEST(Timeline, TimesRoundToTheGrid) {
   EXPECT_EQ(Drain(timeline), (std::vector<Span>{{0, 31, "a"}, {31, 62, "b"}, {62, 77, "c"}}));
 }
 
-// A key further ahead than a transition reaches is one, by frame, time or interval.
+// A key may lie further ahead than the longest transition, by frame, time or interval.
 TEST(Timeline, AnIntervalMayBeLongerThanATransition) {
   Timeline timeline({});
   timeline.GenerateUntil(0);
@@ -157,7 +157,7 @@ TEST(Timeline, LateMessagesAreRejectedWithTheEarliestFrame) {
   EXPECT_EQ(timeline.Remove("b", "remove"), std::nullopt);
 }
 
-// Keys that freeze by themselves surprise who edits: what would have helped is said.
+// Keys that freeze without a grant surprise whoever edits them, so the error names the remedy.
 TEST(Timeline, RejectionsExplainFreezingWithoutGrants) {
   for (const bool grants : {false, true}) {
     Timeline timeline({});
@@ -202,7 +202,7 @@ TEST(Timeline, RefusesImpossibleKeys) {
   timeline.GenerateUntil(20);
   EXPECT_THAT(Refusal([&] { timeline.GenerateUntil(19); }), HasSubstr("generate_until.frame: 19"));
   EXPECT_THAT(Refusal([&] { timeline.GenerateUntil(1LL << 60); }), HasSubstr("108000"));
-  // Moving a key next to where it stands itself is no contradiction.
+  // A key may move next to its own former place.
   EXPECT_EQ(Set(timeline, "a", AtFrame{31}), std::nullopt);
   timeline.Complete();
   EXPECT_THAT(Refusal([&] { Set(timeline, "b", AtFrame{60}); }), HasSubstr("keyframes_complete"));
@@ -362,7 +362,7 @@ TEST(Timeline, DisturbanceStopsTheTransition) {
   EXPECT_EQ(Drain(timeline), (std::vector<Span>{{0, 35, ""}}));
 }
 
-// What music might say: a function of what is planned.
+// Music that depends only on what is planned.
 int64_t Turn(const Segment& segment) {
   return segment.from % 3 == 0 ? segment.from + 5 + segment.from * 31 % 60 : segment.to;
 }

@@ -126,7 +126,7 @@ TEST(TransitionGroup, RanksBySteeringThenSkateThenLikelihood) {
   std::vector<int> order;
   for (const CandidateReport& one : list) order.push_back(one.candidate);
   EXPECT_EQ(order, (std::vector<int>{3, 4, 2, 1, 0}));
-  // Without a likelihood, and without a key, the rest decides.
+  // Without likelihood and key, the other criteria decide.
   list = {report(0, 0.02, 0.02, {}), report(1, 0.02, 0, {}), report(2, 0.02, 0, {})};
   list[0].quality.keys.clear();
   RankCandidates(list);
@@ -250,7 +250,7 @@ TEST(TransitionGroup, StreamIsCandidateZeroOfTheChain) {
   }
 }
 
-// On average: footwork moves the pelvis, too.
+// This holds on average, because footwork moves the pelvis, too.
 TEST(TransitionGroup, MeetsTheMotionThatFollows) {
   const auto queue = FakeQueue();
   double aware = 0, unaware = 0;
@@ -274,7 +274,7 @@ TEST(TransitionGroup, MeetsTheMotionThatFollows) {
   EXPECT_LT(aware, 0.7 * unaware);
 }
 
-// The thread that resumes it may be gRPC's.
+// The thread that resumes it may be one of gRPC's.
 TEST(TransitionGroup, WorkersHandOutWhatAPauseHeldBack) {
   const auto queue = FakeQueue();
   GroupRequest request = RandomRequest(6);

@@ -55,7 +55,7 @@ TEST(Transition, SpecIsInTheCanonicalFrame) {
                 0.3);
     }
   }
-  // The target is where it was, seen from there.
+  // Relative to the new origin, the target is unchanged.
   const GroundFrame ground = GroundFrame::Of(RoundToFloat(request.history.back()));
   EXPECT_LT(ComparePoses(Skeleton::Smpl24(), ground.ToWorld(run.spec().target->pose),
                          request.target->pose)
@@ -63,7 +63,7 @@ TEST(Transition, SpecIsInTheCanonicalFrame) {
             1e-9);
 }
 
-// Nothing but the path leads the root, also to rest.
+// Only the path leads the root, also when it comes to rest.
 TEST(Transition, AKeyHitOnAPathIsWhereThePathEnds) {
   ControlledSampler sampler;
   TransitionSpec request = RandomRequest(4);

@@ -5,7 +5,7 @@
 #include "tests/dance/dances.h"
 #include "tests/support/turning_sampler.h"
 
-/// Rotations of a dancer who turns and turns.
+/// Rotations of a dancer who keeps turning.
 namespace choreo::turning_test {
 
 constexpr double kStep = 0.2;  // radians a frame
@@ -41,7 +41,7 @@ TEST_P(TurningTest, QuaternionsKeepTheirSigns) {
   }
 }
 
-// Of all vectors with that quaternion: two turns more or less.
+// Other rotation vectors of that quaternion are two turns longer or shorter.
 TEST_P(TurningTest, VectorsStayNearThePreviousFrame) {
   const Recording recording = Turn(GetParam(), 30);
   for (size_t i = 1; i < recording.poses.size(); ++i) {

@@ -27,7 +27,7 @@ class SampleQueueTest : public testing::Test {
   std::shared_ptr<LoggedJob> Job(const std::string& name, int slices, double deadline) {
     return std::make_shared<LoggedJob>(name, slices, deadline, &log);
   }
-  /// A job whose first slice waits for `gate`: until then others come.
+  /// A job whose first slice waits for `gate`, so that other jobs can arrive.
   std::shared_ptr<LoggedJob> Gate(double deadline = 0) {
     auto job = Job("gate", 1, deadline);
     job->in_slice = [this] {
@@ -210,7 +210,7 @@ TEST_F(SampleQueueTest, LatenessCountsFromDeadlineOrRequest) {
   queue.Submit(early);
   EXPECT_FALSE(early->Result());
   EXPECT_EQ(lateness().sum, 0);
-  // The deadline of this one was long before it was asked for.
+  // The deadline of this job had passed long before it was submitted.
   const auto late = Gate();
   const double before = Now();
   Close(queue, late);
