@@ -265,6 +265,24 @@ Answer ServerTest::Generate(const v1::GenerateTransitionRequest& request) {
   return answer;
 }
 
+Answer ServerTest::DanceToAKey() {
+  DanceClient client(stub());
+  client.Send(Config());
+  client.SendKeyframe(Key("a", 20));
+  return client.Finish();
+}
+
+std::unique_ptr<DanceClient> ServerTest::OpenEndedDance(
+    std::optional<std::chrono::milliseconds> deadline) {
+  auto client = std::make_unique<DanceClient>(stub(), deadline);
+  v1::DanceConfig config = Config();
+  *config.mutable_audio_format() = MusicFormat();
+  client->Send(config);
+  client->SendKeyframesComplete();
+  client->SendAudio(Music(1), 0);
+  return client;
+}
+
 std::string ServerTest::Music(double seconds) {
   constexpr double kRate = 22'050;
   const auto count = static_cast<size_t>(seconds * kRate);

@@ -132,6 +132,11 @@ class ServerTest : public ::testing::Test {
   /// With a config, a key and the end, what comes of it.
   Answer Dance(const std::vector<v1::StreamDanceRequest>& requests);
   Answer Generate(const v1::GenerateTransitionRequest& request);
+  /// Dances to a key at frame 20.
+  Answer DanceToAKey();
+  /// Starts a dance that waits for more music.
+  std::unique_ptr<DanceClient> OpenEndedDance(
+      std::optional<std::chrono::milliseconds> deadline = std::nullopt);
 
   /// Mono 16-bit PCM of a melody with a beat, 22 050 Hz.
   static std::string Music(double seconds);

@@ -17,17 +17,6 @@ using std::chrono::milliseconds;
 
 class LifecycleTest : public ServerTest {
  protected:
-  // Starts a dance that waits for more music.
-  std::unique_ptr<DanceClient> OpenEndedDance(std::optional<milliseconds> deadline = std::nullopt) {
-    auto client = std::make_unique<DanceClient>(stub(), deadline);
-    v1::DanceConfig config = Config();
-    *config.mutable_audio_format() = MusicFormat();
-    client->Send(config);
-    client->SendKeyframesComplete();
-    client->SendAudio(Music(1), 0);
-    return client;
-  }
-
   static v1::StreamDanceRequest RemoveKey(const std::string& id) {
     v1::StreamDanceRequest request;
     request.mutable_remove_keyframe()->set_id(id);
@@ -39,12 +28,7 @@ class LifecycleTest : public ServerTest {
                          [](const v1::Event& event) { return event.has_keyframe_rejected(); });
   }
 
-  void ExpectServes() {
-    DanceClient client(stub());
-    client.Send(Config());
-    client.SendKeyframe(Key("a", 20));
-    EXPECT_TRUE(client.Finish().status.ok());
-  }
+  void ExpectServes() { EXPECT_TRUE(DanceToAKey().status.ok()); }
 };
 
 TEST_F(LifecycleTest, CancelledDanceFreesItsPlace) {

@@ -71,10 +71,7 @@ class MetricsTest : public ServerTest {
 
 TEST_F(MetricsTest, CountFinishedWork) {
   Start(2, [](ServerConfig& config) { config.metrics = "0"; });
-  DanceClient client(stub());
-  client.Send(Config());
-  client.SendKeyframe(Key("a", 20));
-  ASSERT_TRUE(client.Finish().status.ok());
+  ASSERT_TRUE(DanceToAKey().status.ok());
   DanceClient bad(stub());
   EXPECT_FALSE(bad.Finish().status.ok());
   ExpectIdle();

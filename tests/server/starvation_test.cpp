@@ -22,15 +22,6 @@ class StarvationTest : public ServerTest {
     return config;
   }
 
-  // Starts a dance that waits for more music.
-  std::unique_ptr<DanceClient> OpenEndedDance() {
-    auto client = std::make_unique<DanceClient>(stub());
-    client->Send(MusicConfig());
-    client->SendKeyframesComplete();
-    client->SendAudio(Music(1), 0);
-    return client;
-  }
-
   // Starts a dance whose client reads nothing. HTTP/2's small windows fill, then the outbox, and
   // the dance pauses.
   std::unique_ptr<DanceClient> UnreadDance() {
@@ -48,12 +39,6 @@ class StarvationTest : public ServerTest {
     return client;
   }
 
-  Answer DanceToAKey() {
-    DanceClient client(stub());
-    client.Send(Config());
-    client.SendKeyframe(Key("a", 20));
-    return client.Finish();
-  }
   // Checks that a dance is served, and prints how long it took.
   void ExpectServes() {
     const auto begin = std::chrono::steady_clock::now();
