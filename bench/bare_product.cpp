@@ -63,4 +63,8 @@ void BareProducts::Run() {
   impl_->stream.wait();
 }
 
+void LimitBareProducts(std::string_view kernels) {
+  if (kernels == "avx2") dnnl::set_max_cpu_isa(dnnl::cpu_isa::avx2);
+}
+
 }  // namespace choreo

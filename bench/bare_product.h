@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <string_view>
 #include <vector>
 
 namespace choreo {
@@ -28,5 +29,9 @@ class BareProducts {
   std::unique_ptr<Impl> impl_;
   double bytes_ = 0, operations_ = 0;
 };
+
+/// Limits later products to the instructions of the packed engine's float32 kernels of this name
+/// (PackedKernels::name). Call before the first one.
+void LimitBareProducts(std::string_view kernels);
 
 }  // namespace choreo

@@ -33,10 +33,18 @@
 namespace choreo {
 namespace {
 
+/// What a run measures, besides Google Benchmark's flags.
+struct Options {
+  std::filesystem::path probes;  ///< folder for checkpoints and probes; empty: none
+  /// The packed engine's float32 kernels, as those of an older CPU. Only they and bare products
+  /// with the same instructions run then. Empty: all that this machine has.
+  std::string kernels;
+};
+
 /// The models of a run, and a temporary folder for them.
 class Models {
  public:
-  Models() {
+  explicit Models(std::string kernels) : kernels_(std::move(kernels)) {
     std::filesystem::create_directories(folder_);
     paths_["default"] =
         std::filesystem::path(CHOREO_SOURCE_DIR) / "model/checkpoints/default.safetensors";
@@ -50,11 +58,15 @@ class Models {
   const std::filesystem::path& Path(const std::string& model) const { return paths_.at(model); }
   Sampler& Get(const std::string& model, const std::string& kind, const Device& device = {}) {
     std::unique_ptr<Sampler>& sampler = samplers_[model + kind + device.name()];
-    if (!sampler) sampler = MakeSampler(paths_.at(model), device, ParseEngineKind(kind));
+    if (!sampler) {
+      sampler = std::move(
+          MakeSamplers(paths_.at(model), {&device, 1}, ParseEngineKind(kind), kernels_).front());
+    }
     return *sampler;
   }
 
  private:
+  std::string kernels_;
   std::filesystem::path folder_ =
       std::filesystem::temp_directory_path() / ("engine_bench_" + std::to_string(getpid()));
   std::map<std::string, std::filesystem::path> paths_;
@@ -188,9 +200,10 @@ void ReadMemory(benchmark::State& state) {
   state.SetBytesProcessed(state.iterations() * static_cast<int64_t>(kCount * sizeof(float)));
 }
 
-void Register(Models* models) {
-  const bool bf16 = !Bf16KernelsHere().empty();
-  std::vector<std::string> kinds = {"packed", "torch"};
+void Register(Models* models, bool floats_alone) {
+  const bool bf16 = !floats_alone && !Bf16KernelsHere().empty();
+  std::vector<std::string> kinds = {"packed"};
+  if (!floats_alone) kinds.push_back("torch");
   if (bf16) kinds.push_back("packed-bf16");
   const auto add = [&](const std::string& name, auto run) {
     benchmark::RegisterBenchmark(name.c_str(), run)->Unit(benchmark::kMillisecond);
@@ -235,22 +248,24 @@ void Register(Models* models) {
   benchmark::RegisterBenchmark("memory", ReadMemory)->Unit(benchmark::kMillisecond);
 }
 
-int Measure(Models* models, int argc, char** argv) {
-  if (argc == 3 && std::string(argv[1]) == "--probes") {
-    const std::filesystem::path folder = argv[2];
+int Measure(const Options& options, Models* models) {
+  if (const std::filesystem::path& folder = options.probes; !folder.empty()) {
     std::filesystem::create_directories(folder);
     const std::filesystem::path checkpoint = folder / "paper.safetensors";
     std::filesystem::copy_file(models->Path("paper"), checkpoint,
                                std::filesystem::copy_options::overwrite_existing);
     WriteFlowProbe(checkpoint, folder / "paper.probe.safetensors");
-  } else if (benchmark::ReportUnrecognizedArguments(argc, argv)) {
-    return 2;
   }
-  std::string kernels = PackedKernelsHere().front()->name;
-  if (!Bf16KernelsHere().empty()) kernels += std::string(", ") + Bf16KernelsHere().front()->name;
+  std::string kernels = options.kernels;
+  if (kernels.empty()) {
+    kernels = PackedKernelsHere().front()->name;
+    if (!Bf16KernelsHere().empty()) kernels += std::string(", ") + Bf16KernelsHere().front()->name;
+  } else {
+    LimitBareProducts(kernels);
+  }
   benchmark::AddCustomContext("kernels", kernels);
   benchmark::AddCustomContext("blas", DetectBlas().name);
-  Register(models);
+  Register(models, !options.kernels.empty());
   if (TorchDevices().cuda_devices > 0) {
     const auto gpu = models->Get("paper", "torch", {Device::Kind::kCuda, 0}).model().fingerprint;
     benchmark::AddCustomContext("gpu", gpu.substr(gpu.rfind('/') + 1));
@@ -261,16 +276,28 @@ int Measure(Models* models, int argc, char** argv) {
 }  // namespace
 }  // namespace choreo
 
-/// engine_bench [--probes FOLDER]: also writes checkpoints and probes for bench/peer_torch.py into
-/// FOLDER.
+/// engine_bench [--probes FOLDER] [--kernels NAME]: `--probes` also writes checkpoints and probes
+/// for bench/peer_torch.py into FOLDER.
 int main(int argc, char** argv) {
   using namespace choreo;
   benchmark::Initialize(&argc, argv);
+  Options options;
+  for (; argc >= 3 && argv[1][0] == '-'; argc -= 2, argv += 2) {
+    const std::string flag = argv[1];
+    if (flag == "--probes") {
+      options.probes = argv[2];
+    } else if (flag == "--kernels") {
+      options.kernels = argv[2];
+    } else {
+      break;
+    }
+  }
+  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
   SetTorchThreads(1);
   FlushDenormals();
   try {
-    Models models;
-    return Measure(&models, argc, argv);
+    Models models(options.kernels);
+    return Measure(options, &models);
   } catch (const std::exception& error) {
     std::cerr << "engine_bench: " << error.what() << '\n';
     return 1;

@@ -5,8 +5,10 @@ set -euo pipefail
 root=$(cd "$(dirname "$0")/.." && pwd)
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
-"$1/engine_bench" --probes "$folder" --benchmark_repetitions=5 --benchmark_enable_random_interleaving=true \
-  --benchmark_report_aggregates_only=true --benchmark_min_time=0.1 --benchmark_out="$folder/engine.json"
+how=(--benchmark_repetitions=5 --benchmark_enable_random_interleaving=true --benchmark_report_aggregates_only=true
+  --benchmark_min_time=0.1)
+"$1/engine_bench" --probes "$folder" "${how[@]}" --benchmark_out="$folder/engine.json"
+"$1/engine_bench" --kernels avx2 "${how[@]}" --benchmark_filter='^default/' --benchmark_out="$folder/avx2.json"
 /usr/bin/python3 "$root/bench/peer_torch.py" "$folder" >"$folder/peer.json"
 if [[ -x $1/load ]]; then
   "$1/load" | tee "$folder/load.md"
