@@ -50,6 +50,7 @@ ServerDescription FromProto(const v1::GetServerInfoResponse& response) {
   out.devices.assign(response.devices().begin(), response.devices().end());
   out.workers = response.slots();
   out.active_streams = response.active_streams();
+  out.draining = response.draining();
   const v1::Limits& limits = response.limits();
   out.limits = {limits.max_message_bytes(),     limits.max_audio_s(),
                 limits.max_audio_file_bytes(),  limits.max_keyframes(),

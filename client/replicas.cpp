@@ -249,10 +249,13 @@ std::optional<std::chrono::duration<double>> Patience::Next(
   const double asked = elsewhere ? 0 : advice.wait_s;
   if (!useful || left <= 0 || asked > left) return std::nullopt;
   const double doubled = std::min(kMaxBackoffSeconds, first_backoff_s_ * std::exp2(failures_));
+  // A server that stops leaves its dances to the others: each of them is asked once without a wait.
+  const bool at_once = elsewhere && advice.leaving && failures_ + 1 < static_cast<int>(servers_);
   ++failures_;
   // Clients that lost the same server should not all come back at once.
   const double spread = std::uniform_real_distribution<double>(0.5, 1.0)(jitter_);
-  const std::chrono::duration<double> wait(std::max(asked, std::min(left, doubled * spread)));
+  const std::chrono::duration<double> wait(
+      at_once ? 0 : std::max(asked, std::min(left, doubled * spread)));
   if (deadline_ && Clock::now() + std::chrono::duration_cast<Clock::duration>(wait) >= *deadline_) {
     return std::nullopt;
   }

@@ -66,6 +66,9 @@ std::string FieldOf(const grpc::Status& status) {
 constexpr const char* kAway[] = {"failed to connect to all addresses",
                                  "connections to all backends failing"};
 
+/// gRPC's words for a server whose health is not serving.
+constexpr const char* kUnhealthy = "backend unhealthy";
+
 /// Extracts the reason from a message of gRPC's for a server that is not reached.
 std::string ReasonIn(const std::string& message) {
   constexpr std::string_view kLast = "last error: ", kFailed = "Failed to connect to remote host: ";
@@ -93,6 +96,10 @@ std::string TlsHint(const std::string& message, const Options& options) {
   if (message.ends_with("certificate verify failed"))
     return "; its certificate has expired, or is not of the authority trusted (--ca)";
   return "";
+}
+
+bool IsUnhealthy(const grpc::Status& status) {
+  return IsAway(status) && status.error_message().ends_with(kUnhealthy);
 }
 
 constexpr const char* kFingerprintField = "config.continuation.fingerprint";
@@ -132,8 +139,10 @@ Error ToError(const grpc::Status& status, const std::string& address, const Opti
                 " s; another server may have room"};
   }
   if (error.code() != ErrorCode::kUnavailable) return error;
-  const std::string message =
-      IsAway(status) ? "no server is reached: " + ReasonIn(error.what()) : error.what();
+  const std::string message = IsUnhealthy(status)
+                                  ? "the server takes no calls: it drains, or an engine of it fails"
+                              : IsAway(status) ? "no server is reached: " + ReasonIn(error.what())
+                                               : error.what();
   return {ErrorCode::kUnavailable, address, message + TlsHint(message, options)};
 }
 
@@ -159,7 +168,10 @@ RetryAdvice AdviceFor(const grpc::Status& status) {
   const grpc::StatusCode code = status.error_code();
   const bool here = invited || code == grpc::StatusCode::UNAVAILABLE;
   const bool broken = code == grpc::StatusCode::INTERNAL || code == grpc::StatusCode::UNKNOWN;
-  return {here, here || broken || IsTheReplicas(FieldOf(status)), wait};
+  google::rpc::ErrorInfo why;
+  const bool leaving =
+      IsUnhealthy(status) || (FindDetail(status, &why) && why.reason() == "DRAINING");
+  return {here, here || broken || IsTheReplicas(FieldOf(status)), wait, leaving};
 }
 
 }  // namespace choreo::client

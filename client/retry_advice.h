@@ -32,6 +32,7 @@ struct RetryAdvice {
   bool here = false;       ///< at the same server
   bool elsewhere = false;  ///< at another one
   double wait_s = 0;       ///< least delay, from the server's RetryInfo
+  bool leaving = false;    ///< the server is stopping, so another one should be tried at once
 };
 
 /// Returns how to retry a failed call. An unreachable or full server may be tried again. A server

@@ -18,6 +18,7 @@ struct ServerDescription {
   std::vector<std::string> devices = {};
   int workers = 0;
   int active_streams = 0;
+  bool draining = false;  ///< it is stopping, and takes no new dances
   /// The server's limits.
   struct Limits {
     int64_t max_message_bytes = 0;

@@ -130,6 +130,7 @@ void ChoreographyService::Describe(v1::GetServerInfoResponse* response) const {
   }
   response->set_slots(workers);
   response->set_active_streams(serving_.calls.count());
+  response->set_draining(!serving_.calls.admitting());
 }
 
 }  // namespace choreo

@@ -145,6 +145,7 @@ void PrintServer(const client::ServerDescription& server, const InfoOptions& opt
     out["devices"] = server.devices;
     out["workers"] = server.workers;
     out["active_streams"] = server.active_streams;
+    out["draining"] = server.draining;
     out["limits"] = {{"max_audio_s", server.limits.max_audio_s},
                      {"max_keyframes", server.limits.max_keyframes},
                      {"max_transition_frames", server.limits.max_transition_frames},
@@ -199,9 +200,12 @@ void Run(const InfoOptions& options) {
   }
   const Connection connection(options.server);
   PrintServer(connection.server(), options);
-  if (!MayServe(connection.client()))
-    std::cerr << "note: the server does not serve: it drains and takes no new dances, or the "
-                 "engine of a model fails\n";
+  if (connection.server().draining) {
+    std::cerr << "note: the server drains: it takes no new dances\n";
+  } else if (!MayServe(connection.client())) {
+    std::cerr
+        << "note: the server does not serve: it is stopping, or the engine of a model fails\n";
+  }
 }
 
 }  // namespace

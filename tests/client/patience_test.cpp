@@ -72,6 +72,33 @@ TEST(PatienceTest, BrokenReplicaIsRetriedElsewhereUntilAllAreBroken) {
   EXPECT_FALSE(patience.Next(kBroken, "a:1", true));
 }
 
+grpc::Status Draining() {
+  google::rpc::ErrorInfo why;
+  why.set_reason("DRAINING");
+  google::rpc::Status details;
+  details.add_details()->PackFrom(why);
+  return {grpc::StatusCode::UNAVAILABLE, "the server is going away", details.SerializeAsString()};
+}
+
+TEST(PatienceTest, LeavesAServerThatDrainsAtOnce) {
+  Patience patience({.addresses = {"a:1", "b:1", "c:1"}, .retry_s = 1e6, .first_backoff_s = 2});
+  const std::chrono::seconds none(0);
+  EXPECT_EQ(patience.Next(Draining(), "a:1", true), none);
+  EXPECT_EQ(patience.Next(Draining(), "b:1", true), none);
+  EXPECT_GT(patience.Next(Draining(), "c:1", true), none) << "all of them drain";
+  patience.Reset();
+  EXPECT_EQ(patience.Next(Draining(), "a:1", true), none);
+  EXPECT_GT(Patience({.retry_s = 1e6}).Next(Draining(), "a:1", false), none) << "there is no other";
+  // What gRPC says where the health of a server is watched.
+  const grpc::Status unhealthy(
+      grpc::StatusCode::UNAVAILABLE,
+      "connections to all backends failing; last error: UNAVAILABLE: backend unhealthy");
+  patience.Reset();
+  EXPECT_EQ(patience.Next(unhealthy, "a:1", true), none);
+  EXPECT_STREQ(ToError(unhealthy, "a:1", {}).what(),
+               "a:1: the server takes no calls: it drains, or an engine of it fails");
+}
+
 TEST(PatienceTest, NamesAllAddressesThatWereTried) {
   const grpc::Status away(
       grpc::StatusCode::UNAVAILABLE,

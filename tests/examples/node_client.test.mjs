@@ -9,6 +9,7 @@ import { test } from 'node:test';
 import { setTimeout as sleep } from 'node:timers/promises';
 import { ChoreoClient, pose } from '../../client/node/src/index.js';
 import { Journal } from '../../client/node/src/journal.js';
+import { Patience } from '../../client/node/src/replicas.js';
 import { clicks, live, pcm } from '../../examples/node/music.js';
 import { authority, withServer } from './servers.mjs';
 
@@ -375,6 +376,35 @@ test('calls take turns at the addresses of a list', () =>
         }
         stop.abort();
         for (const { reason } of await Promise.allSettled(dances)) assert.equal(reason.code, 'CANCELLED');
+      }),
+    ),
+  ));
+
+test('a server that drains says so, and is left at once', () =>
+  withServer(['--drain-seconds', '60'], (one) =>
+    withServer([], (two) =>
+      withClient(one.address, {}, async (holder) => {
+        async function* silence() {
+          yield { config: { audio_format: pcm } };
+          await new Promise(() => {});
+        }
+        const held = holder.streamDance(silence());
+        await held.next();
+        assert.equal((await info(one.address)).draining, false);
+        one.drain();
+        while (!(await info(one.address)).draining) await sleep(20);
+        const refused = withClient(one.address, { retry: 0 }, (client) => collect(client.streamDance([{ config: { frames: 30 } }])));
+        await assert.rejects(refused, { code: 'UNAVAILABLE', reason: 'DRAINING' });
+        const error = await refused.catch((failure) => failure);
+        const patience = new Patience({ retry: 60, firstBackoff: 2 }, undefined, 2);
+        assert.equal(patience.next(error, true, one.address), 0);
+        assert.ok(patience.next(error, true, two.address) > 0, 'both drain');
+        await withClient([one.address, two.address], {}, async (client) => {
+          const answers = await collect(client.streamDance([{ config: { frames: 30 } }]));
+          assert.ok(answers.at(-1).summary);
+        });
+        one.kill();
+        await held.next().catch(() => {});
       }),
     ),
   ));

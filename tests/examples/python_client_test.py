@@ -14,6 +14,8 @@ import unittest
 import unittest.mock
 
 from choreo_client import ChoreoError, Client, choreography, pose
+from choreo_client._options import Options
+from choreo_client._replicas import Cancellation, Patience
 from music import PCM, RATE, clicks, live
 from servers import Authority, Server
 
@@ -344,7 +346,18 @@ class ClientTest(unittest.TestCase):
                     time.sleep(0.02)
             except ChoreoError as error:
                 self.assertEqual(error.code, "UNAVAILABLE")
-            self.assertTrue(info(server.address, even_draining=True).models)
+            told = info(server.address, even_draining=True)
+            self.assertTrue(told.models and told.draining)
+            # The next server is tried at once, and a refusal says why.
+            with Client(server.address, even_draining=True, retry_s=0) as other:
+                error = self.assert_refused("UNAVAILABLE", "going away", list, other.stream_dance([{"config": {"frames": 30}}]))
+            self.assertEqual(error.reason, "DRAINING")
+            patience = Patience(Options(first_backoff_s=2), Cancellation(), 2)
+            self.assertEqual(patience.next(error, True, "a:1"), 0)
+            self.assertGreater(patience.next(error, True, "b:1"), 0, "both drain")
+            passed = self.assert_refused("UNAVAILABLE", f"^{server.address}: the server takes no calls: it drains, or ", info, server.address)
+            patience.reset()
+            self.assertEqual(patience.next(passed, True, "a:1"), 0)
             stop.set()
 
     def test_a_full_server_that_asks_to_wait_longer_than_a_call_tries_is_asked_once(self):

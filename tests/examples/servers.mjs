@@ -15,7 +15,7 @@ export async function withServer(flags, use, more = {}) {
       const address = /listens on (\S+)$/.exec(line)?.[1];
       if (!address) continue;
       server.stdout.resume();
-      return await use({ address, kill: () => server.kill('SIGKILL'), log: () => log });
+      return await use({ address, kill: () => server.kill('SIGKILL'), drain: () => server.kill('SIGTERM'), log: () => log });
     }
     throw new Error(`choreod ended before it served: ${log}`);
   } finally {

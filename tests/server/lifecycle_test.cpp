@@ -28,6 +28,13 @@ class LifecycleTest : public ServerTest {
                          [](const v1::Event& event) { return event.has_keyframe_rejected(); });
   }
 
+  bool IsDraining() {
+    grpc::ClientContext context;
+    v1::GetServerInfoResponse info;
+    EXPECT_TRUE(stub().GetServerInfo(&context, {}, &info).ok());
+    return info.draining();
+  }
+
   void ExpectServes() { EXPECT_TRUE(DanceToAKey().status.ok()); }
 };
 
@@ -163,6 +170,7 @@ TEST_F(LifecycleTest, DrainLetsShortDancesFinishAndEndsTheOthers) {
   const auto endless = OpenEndedDance();
   ExpectEventually([this] { return server->transitions() == 2; }, "the other dance too");
 
+  EXPECT_FALSE(IsDraining());
   const std::jthread drain([this] { server->Drain(2.0); });
   grpc::Status refused;
   ExpectEventually(
@@ -174,6 +182,7 @@ TEST_F(LifecycleTest, DrainLetsShortDancesFinishAndEndsTheOthers) {
       "new calls are refused");
   EXPECT_EQ(refused.error_code(), grpc::StatusCode::UNAVAILABLE);
   EXPECT_NE(refused.error_message().find("going away"), std::string::npos);
+  EXPECT_TRUE(IsDraining());
   probe->Open();
   const Answer& answer = brief.Finish();
   EXPECT_TRUE(answer.status.ok()) << answer.status.error_message();

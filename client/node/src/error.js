@@ -14,6 +14,8 @@ export class ChoreoError extends Error {
     this.violations = violations;
     /** Seconds after which a retry may succeed; undefined if none would, or it is unknown. */
     this.retryAfter = undefined;
+    /** Why, in a word for programs: 'DRAINING', 'SERVER_FULL', ...; undefined where no server said it. */
+    this.reason = undefined;
     for (const bytes of failure.metadata?.get('grpc-status-details-bin') ?? []) this.#read(bytes);
   }
 
@@ -37,8 +39,9 @@ export class ChoreoError extends Error {
     for (const { type_url, value } of rpc.lookupType('google.rpc.Status').decode(bytes).details) {
       const type = type_url.split('/').pop();
       if (type === 'google.rpc.ErrorInfo') {
-        const { keyframe_id: keyframeId } = rpc.lookupType(type).decode(value).metadata;
-        key = keyframeId && { keyframeId };
+        const { reason, metadata } = rpc.lookupType(type).decode(value);
+        this.reason = reason;
+        key = metadata.keyframe_id && { keyframeId: metadata.keyframe_id };
       } else if (type === 'google.rpc.BadRequest') {
         const { fieldViolations } = rpc.lookupType(type).decode(value);
         this.violations.push(...fieldViolations.map(({ field, description }) => ({ field, description, ...key })));

@@ -122,7 +122,7 @@ function named(error, addresses) {
 }
 
 /** Decides whether to retry a call, and how long to wait before. */
-class Patience {
+export class Patience {
   #options;
   #deadline;
   #servers;
@@ -163,6 +163,11 @@ class Patience {
     const left = this.#options.retry - (now - this.#since) / 1000;
     const asked = elsewhere ? 0 : advice.wait; // a server's retry delay applies only to that server
     if (!useful || left <= 0 || asked > left) return undefined;
+    // A server that stops leaves its dances to the others: each of them is asked once without a wait.
+    if (elsewhere && failed.reason === 'DRAINING' && this.#failures + 1 < this.#servers) {
+      ++this.#failures;
+      return 0;
+    }
     const doubled = Math.min(longestBackoff, this.#options.firstBackoff * 2 ** this.#failures++);
     // Clients that lost the same server should not all come back at once.
     const wait = Math.max(asked, Math.min(left, doubled * (0.5 + 0.5 * Math.random())));

@@ -17,6 +17,9 @@ _AT = re.compile(r"(?:dns:(?://[^/]*/)?|ipv[46]:)?\[?([^,/]+?)\]?:(\d+)(?:,|$)")
 _AWAY = re.compile(r"(?:failed to connect to all addresses|connections to all backends failing)(?:; last error: (.*))?", re.IGNORECASE | re.DOTALL)
 
 
+_LEAVING = "the server takes no calls: it drains, or an engine of it fails"
+
+
 def explained(error, server, options):
     """Rewrites `error` for people. Sets `is_away` if no server was reached, and suggests a fix if the server never was."""
     if error.code != "UNAVAILABLE":
@@ -32,8 +35,10 @@ def explained(error, server, options):
     if not away:
         return error
     reason = re.sub(r".*(?:Failed to connect to remote host|[A-Z]+: \S+): ", "", (away[1] or "").strip(), flags=re.DOTALL)
-    told = ChoreoError("UNAVAILABLE", f"no server is reached: {reason.lower() or 'nobody answers'}")
+    # Its health check answers, so it is reached.
+    told = ChoreoError("UNAVAILABLE", _LEAVING if reason.endswith("unhealthy") else f"no server is reached: {reason.lower() or 'nobody answers'}")
     told.is_away = True
+    told.is_leaving = reason.endswith("unhealthy")
     return told
 
 

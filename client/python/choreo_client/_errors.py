@@ -24,15 +24,18 @@ class Violation(collections.namedtuple("Violation", "field description")):
 
 class ChoreoError(Exception):
     """A failed call, or an unusable option. `code` is the name of a gRPC status code, such as "INVALID_ARGUMENT". The message is the server's,
-    and `violations` has the fields that it names. A retry may succeed after `retry_after` seconds (None: it would not, or it is unknown)."""
+    and `violations` has the fields that it names. A retry may succeed after `retry_after` seconds (None: it would not, or it is unknown).
+    `reason` is the server's, for programs, such as "DRAINING" or "SERVER_FULL" (None: no server gave one)."""
 
     def __init__(self, code, message, violations=(), retry_after=None):
         super().__init__(message)
         self.code = code
         self.violations = list(violations)
         self.retry_after = retry_after
+        self.reason = None
         self.is_of_the_caller = False  # options do not fit the server
-        self.is_away = False  # whether no server was reached
+        self.is_away = False  # whether no server was reached, or only its health
+        self.is_leaving = False  # whether the server drains, so that another one should be tried at once
 
     @classmethod
     def of(cls, failure, find=lambda violation: (None, None)):
@@ -61,7 +64,10 @@ class ChoreoError(Exception):
         for detail in _rpc.Status.FromString(value).details:
             name = detail.type_url.rpartition("/")[2]
             if name == "google.rpc.ErrorInfo":
-                key = dict(_rpc.ErrorInfo.FromString(detail.value).metadata).get("keyframe_id")
+                info = _rpc.ErrorInfo.FromString(detail.value)
+                self.reason = info.reason
+                self.is_leaving = info.reason == "DRAINING"
+                key = dict(info.metadata).get("keyframe_id")
             elif name == "google.rpc.BadRequest":
                 fields = _rpc.BadRequest.FromString(detail.value).field_violations
                 self.violations += [Violation(wrong.field, wrong.description, key) for wrong in fields]

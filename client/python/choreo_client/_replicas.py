@@ -177,6 +177,10 @@ class Patience:
         asked = 0 if elsewhere else advice.wait_s  # a server's retry delay applies only to that server
         if not useful or left <= 0 or asked > left:
             return None
+        # A server that stops leaves its dances to the others: each of them is asked once without a wait.
+        if elsewhere and failed.is_leaving and self._failures + 1 < self._servers:
+            self._failures += 1
+            return 0
         doubled = min(LONGEST_BACKOFF, self._options.first_backoff_s * 2**self._failures)
         self._failures += 1
         # Clients that lost the same server should not all come back at once.
