@@ -169,9 +169,18 @@ ValidGroup ToGroupRequest(const v1::GenerateTransitionRequest& message, const Mo
       if (request.samples.empty()) throw InvalidArgument("audio", "has no samples");
     }
   } else if (message.has_audio()) {
-    throw InvalidArgument("audio", "there is no config.audio_format");
+    throw WithoutAudioFormat("audio");
   }
   return {std::move(request), model};
+}
+
+Error WithoutAudioFormat(const std::string& field) {
+  return InvalidArgument(
+      field,
+      "comes without config.audio_format, which must say before what its bytes are: "
+      R"({"audio_format": {"encoding": "AUDIO_ENCODING_FILE"}} for a WAV, FLAC, Ogg or MP3 file, )"
+      R"({"audio_format": {"encoding": "AUDIO_ENCODING_PCM_S16LE", "sample_rate": 44100, )"
+      R"("channels": 2}} for samples)");
 }
 
 ControlRequest ToControls(const v1::Controls& controls, const std::string& field) {

@@ -151,6 +151,7 @@ class DanceSession final : public CallSession<DanceResponse, DanceStream>,
       case DanceRequest::kKeyframesComplete:
         return stream->KeysComplete();
       case DanceRequest::kEndOfAudio:
+        if (!audio_) throw WithoutAudioFormat("end_of_audio");
         DecodeFile(*stream);
         return stream->EndOfAudio();
       case DanceRequest::kConfig:
@@ -195,7 +196,7 @@ class DanceSession final : public CallSession<DanceResponse, DanceStream>,
   bool SendsFile() const { return audio_ && audio_->encoding() == v1::AUDIO_ENCODING_FILE; }
 
   void TakeAudio(DanceStream& stream, const v1::Audio& audio) {
-    if (!audio_) throw InvalidArgument("audio", "comes without config.audio_format");
+    if (!audio_) throw WithoutAudioFormat("audio");
     if (!SendsFile()) {
       const bool floats = audio_->encoding() == v1::AUDIO_ENCODING_PCM_F32LE;
       const auto channels = static_cast<int>(audio_->channels());

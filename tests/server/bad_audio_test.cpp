@@ -57,7 +57,16 @@ INSTANTIATE_TEST_SUITE_P(
            return Requests{ConfigRequest(), AudioRequest(100, 0)};
          },
          "audio",
-         {"config.audio_format"}},
+         {"without config.audio_format", R"("encoding": "AUDIO_ENCODING_FILE")",
+          R"("sample_rate": 44100)"}},
+        {"EndWithoutFormat",
+         [](const KeyMessage&) {
+           v1::StreamDanceRequest end;
+           end.mutable_end_of_audio();
+           return Requests{ConfigRequest(), end};
+         },
+         "end_of_audio",
+         {R"("encoding": "AUDIO_ENCODING_FILE")"}},
         {"None", Pieces({}), "audio", {"without a sample"}},
         {"EmptyPieces",
          Pieces({AudioRequest(0, 0), AudioRequest(0, 0)}),
