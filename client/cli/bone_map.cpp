@@ -85,7 +85,7 @@ void SuggestBoneMap(const std::filesystem::path& out, const std::string& name, c
                     HumanBones found) {
   RigNodes upright = rig;
   if (rig.names.empty()) throw InvalidArgument(name, "has no nodes");
-  const std::string missing = MissingBone(found);
+  const std::string missing = MissingBones(found);
   Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
   const HumanBones guess = GuessBones(rig.parents, rig.places, rig.joints, &turn);
   upright.places = turn * rig.places;

@@ -55,7 +55,8 @@ void CharacterOptions::Write(const std::filesystem::path& out, const Skeleton& s
   const CharacterFile file(character);
   const HumanBones bones =
       file.FindBones(map.empty() ? std::vector<BoneChoice>() : ReadBoneMap(map));
-  if (map.empty() && !MissingBone(bones).empty()) SuggestBoneMap(out, character, file.rig(), bones);
+  if (map.empty() && !MissingBones(bones).empty())
+    SuggestBoneMap(out, character, file.rig(), bones);
   CharacterBody body;
   try {
     body = MakeCharacterBody(bones, file.places());

@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <vector>
 
 #include "model/core/error.h"
+#include "model/core/joined.h"
 #include "model/motion/kinematics.h"
 
 namespace choreo {
@@ -195,18 +197,25 @@ class BodyBuilder {
 
 }  // namespace
 
-std::string MissingBone(const HumanBones& bones) {
-  if (bones.Find("pelvis") < 0) return "pelvis";
+std::string MissingBones(const HumanBones& bones) {
+  constexpr size_t kNamed = 6;
+  std::vector<std::string> missing;
+  const auto look = [&](const std::string& bone) {
+    if (bones.Find(bone) < 0) missing.push_back(bone);
+  };
+  look("pelvis");
   for (const std::string side : {"left_", "right_"}) {
-    for (const char* bone : kNeededLimbBones) {
-      if (bones.Find(side + bone) < 0) return side + bone;
-    }
+    for (const char* bone : kNeededLimbBones) look(side + bone);
   }
-  return bones.Find("head") < 0 && bones.Find("neck") < 0 ? "head" : "";
+  if (bones.Find("neck") < 0) look("head");
+  if (missing.size() <= kNamed) return Joined(missing);
+  const std::string more = " and " + std::to_string(missing.size() - kNamed) + " more";
+  missing.resize(kNamed);
+  return Joined(missing) + more;
 }
 
 CharacterBody MakeCharacterBody(const HumanBones& bones, const Eigen::Matrix3Xd& places) {
-  if (const std::string missing = MissingBone(bones); !missing.empty())
+  if (const std::string missing = MissingBones(bones); !missing.empty())
     throw InvalidArgument("bones", "none of them is the " + missing);
   for (const auto& [name, chain] :
        {std::pair("spine", bones.Spine()), std::pair("neck", bones.Neck())}) {

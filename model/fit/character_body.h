@@ -26,7 +26,7 @@ struct CharacterBody {
 /// at one place, or if left and right are swapped.
 CharacterBody MakeCharacterBody(const HumanBones& bones, const Eigen::Matrix3Xd& places);
 
-/// The first needed bone that is missing, or "".
-std::string MissingBone(const HumanBones& bones);
+/// The needed bones that are missing, as in "left_hip, left_knee and 4 more"; empty if none is.
+std::string MissingBones(const HumanBones& bones);
 
 }  // namespace choreo

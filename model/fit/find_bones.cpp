@@ -193,7 +193,7 @@ void Choose(const RigNodes& rig, const BoneChoice& choice, HumanBones* found) {
 
 HumanBones FindBones(const RigNodes& rig, const std::vector<BoneChoice>& chosen) {
   HumanBones found = rig.table;
-  if (!MissingBone(found).empty()) {
+  if (!MissingBones(found).empty()) {
     found = ByNames(rig);
     // A table that lacks some bones still identifies the others better than names do.
     for (const auto& [bone, node] : rig.table.bones) {

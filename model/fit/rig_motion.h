@@ -52,7 +52,7 @@ struct RigFit {
 /// rigs lay all bones along one axis), rest rotations are estimated from the whole clip's positions
 /// (fit_clip.h). `scale` multiplies travel; 0: our legs' length over the rig's. Throws
 /// Error(kInvalidArgument) for a rig without frames or size, and for a missing bone that is needed
-/// (MissingBone).
+/// (MissingBones).
 RigFit FitRig(const RigMotion& rig, double scale = 0);
 
 }  // namespace choreo

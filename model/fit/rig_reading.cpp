@@ -95,7 +95,7 @@ const std::vector<LimbSegment>& LimbSegments() {
 
 RigReading::RigReading(const RigMotion& rig) : rig_(rig) {
   if (rig.count < 1) throw InvalidArgument("", "has no frames");
-  if (const std::string missing = MissingBone(rig.bones); !missing.empty())
+  if (const std::string missing = MissingBones(rig.bones); !missing.empty())
     throw InvalidArgument("bones", "none of them is the " + missing);
   const int64_t step = std::max<int64_t>(1, rig.count / kSamples);
   for (int64_t frame = 0; frame < rig.count; frame += step) samples_.push_back(rig.frame(frame));

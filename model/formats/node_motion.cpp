@@ -95,7 +95,7 @@ HumanBones FindBody(const RigNodes& nodes, const MotionReading& reading) {
   HumanBones found = FindBones(nodes, reading.bones);
   if (!reading.bones.empty() && !reading.body.empty())
     throw InvalidArgument("--body", "--map already chooses the bones: give only one of both");
-  if (!reading.bones.empty() || !MissingBone(found).empty()) return found;
+  if (!reading.bones.empty() || !MissingBones(found).empty()) return found;
   std::vector<HumanBones> bodies = MovingBodies(nodes, found);
   std::vector<std::string> names;
   for (const HumanBones& body : bodies) {
@@ -114,10 +114,10 @@ HumanBones FindBody(const RigNodes& nodes, const MotionReading& reading) {
 
 Motion FitNodes(RigNodes nodes, const NodeMotion& motion, const MotionReading& reading) {
   HumanBones found = FindBody(nodes, reading);
-  if (const std::string missing = MissingBone(found); !missing.empty()) {
+  if (const std::string missing = MissingBones(found); !missing.empty()) {
     // Without a usable rest pose, the first frame is better evidence.
     const bool guessable =
-        MissingBone(GuessBones(nodes.parents, nodes.places, nodes.joints)).empty();
+        MissingBones(GuessBones(nodes.parents, nodes.places, nodes.joints)).empty();
     if (!guessable) nodes.places = motion.frame(0).places;
     throw UnknownBones("", missing, std::move(nodes), found);
   }

@@ -58,7 +58,8 @@ TEST_F(CharacterCommandTest, AReportSaysWhatHandsDo) {
 
 TEST_F(CharacterCommandTest, AsksForAMapOfMeaninglessNames) {
   WriteCharacter(folder_ / "hero.glb", {.rig = "", .arms_down = 20});
-  ExpectRefused(Convert("--character " + At("hero.glb")), "do not say which bone is the pelvis");
+  ExpectRefused(Convert("--character " + At("hero.glb")),
+                "do not say which bone is the pelvis, left_hip, left_knee");
   const nlohmann::json map = ReadJson(folder_ / "out.map.json");
   EXPECT_EQ(map["bones"]["left_knee"], "bone.4");
   EXPECT_GT(std::filesystem::file_size(folder_ / "out.map.png"), 5000U);

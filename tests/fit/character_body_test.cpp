@@ -76,6 +76,12 @@ TEST(CharacterBody, RefusesNonBodies) {
   HumanBones bones = all;
   bones.bones.erase("right_knee");
   refuse("bones: none of them is the right_knee", bones, places);
+  bones.bones.erase("left_hip");
+  refuse("bones: none of them is the left_hip, right_knee", bones, places);
+  refuse(
+      "bones: none of them is the pelvis, left_hip, left_knee, left_ankle, left_shoulder, "
+      "left_elbow and 8 more",
+      HumanBones(), places);
   bones = all;
   bones.bones["left_knee"] = bones.bones["left_ankle"];
   refuse("bones: left_ankle and left_knee are one node", bones, places);

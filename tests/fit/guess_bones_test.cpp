@@ -26,7 +26,7 @@ TEST(GuessBones, FindsABodyByItsPosition) {
         rest.rotations.col(body.right_shoulder) << 0, 0, down;
         const HumanBones guess = GuessBones(body.parents, JointPositions(body, rest),
                                             std::vector<bool>(body.parents.size(), true));
-        EXPECT_EQ(MissingBone(guess), "");
+        EXPECT_EQ(MissingBones(guess), "");
         for (const auto& [bone, node] : guess.bones)
           EXPECT_EQ(body.joint_names[static_cast<size_t>(node)], bone) << facing << " " << down;
       }
@@ -47,7 +47,7 @@ TEST(GuessBones, FindsABodyWithAnyAxes) {
       Eigen::Matrix3d upright;
       const HumanBones guess = GuessBones(body.parents, turn * places,
                                           std::vector<bool>(body.parents.size(), true), &upright);
-      EXPECT_EQ(MissingBone(guess), "");
+      EXPECT_EQ(MissingBones(guess), "");
       for (const auto& [bone, node] : guess.bones)
         EXPECT_EQ(body.joint_names[static_cast<size_t>(node)], bone) << up.transpose() << quarter;
       EXPECT_TRUE((upright * up).isApprox(Eigen::Vector3d::UnitY(), 1e-9));
@@ -59,8 +59,8 @@ TEST(GuessBones, GuessesNothingWithoutABody) {
   const Eigen::Matrix3Xd line = Eigen::Matrix3Xd::Zero(3, 30);
   std::vector<int> parents;
   for (int i = 0; i < 30; ++i) parents.push_back(i - 1);
-  EXPECT_NE(MissingBone(GuessBones(parents, line, std::vector<bool>(30, true))), "");
-  EXPECT_NE(MissingBone(GuessBones({}, Eigen::Matrix3Xd(3, 0), {})), "");
+  EXPECT_NE(MissingBones(GuessBones(parents, line, std::vector<bool>(30, true))), "");
+  EXPECT_NE(MissingBones(GuessBones({}, Eigen::Matrix3Xd(3, 0), {})), "");
 }
 
 }  // namespace choreo::guess_bones_test

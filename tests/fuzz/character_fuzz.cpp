@@ -12,7 +12,7 @@ int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     const CharacterFile file(input.Holding(fuzz::Text(data, size)));
     const Eigen::Matrix3Xd places = file.places();
     HumanBones bones = file.FindBones();
-    if (!MissingBone(bones).empty())
+    if (!MissingBones(bones).empty())
       bones = GuessBones(file.nodes().parents, places, file.rig().joints);
     const CharacterBody body = MakeCharacterBody(bones, places);
     const Skeleton& smpl = Skeleton::Smpl24();
