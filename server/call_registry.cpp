@@ -204,6 +204,16 @@ int CallRegistry::MostOf(const std::string& party) const {
   return IsRivalled(party) ? limits_.calls_of_peer : limits_.calls_of_lone_peer;
 }
 
+CallLimits CallRegistry::limits() const {
+  const std::lock_guard lock(mutex_);
+  return limits_;
+}
+
+void CallRegistry::SetLimits(const CallLimits& limits) {
+  const std::lock_guard lock(mutex_);
+  limits_ = limits;
+}
+
 double CallRegistry::utilisation() const {
   const std::lock_guard lock(mutex_);
   double most = static_cast<double>(admitted_) / limits_.calls;

@@ -102,7 +102,9 @@ class CallRegistry {
   int count() const;       ///< admitted
   /// The calls of one caller, including those without a first message.
   int CountOf(const std::string& party) const;
-  const CallLimits& limits() const { return limits_; }
+  CallLimits limits() const;
+  /// Limits calls from now on; those in progress stay, even if they are more.
+  void SetLimits(const CallLimits& limits);
   const TimeSource& time() const { return time_; }
   /// The share in use of the limit on all calls or of that on the busiest caller, whichever is
   /// larger.
@@ -134,10 +136,10 @@ class CallRegistry {
   int MostOf(const std::string& party) const;
   double Spread(double seconds);
 
-  const CallLimits limits_;
   const TimeSource& time_;
   std::atomic<bool> ends_at_transitions_ = false;
   mutable std::mutex mutex_;  // guards the members below
+  CallLimits limits_;
   mutable std::condition_variable left_;
   std::map<const Call*, Entry> calls_;
   std::map<std::string, int> of_party_;

@@ -159,6 +159,58 @@ std::string PlaceInFile(const std::string& error, const TomlFile& file, int argc
   return is_overridden ? "" : file.PlaceOf(flag.substr(2));
 }
 
+std::map<std::string, std::string> GivenIn(const CLI::App& app) {
+  std::map<std::string, std::string> given;
+  for (const CLI::Option* option : app.get_options()) {
+    if (option->count() > 0) given[option->get_single_name()] = Joined(option->results());
+  }
+  return given;
+}
+
+/// One reading of the command line, the environment and the file of --config.
+class Reading {
+ public:
+  Reading(int argc, const char* const* argv) : argc_(argc), argv_(argv) {
+    app_.set_version_flag("--version", CHOREO_VERSION);
+    AddFlags(app_, config);
+    app_.config_formatter(file_);
+  }
+
+  /// Fills `config`, and `unknown` with variables that look like ours. Throws
+  /// Error(kInvalidArgument) for a bad setting, and CLI::Success for --help and --version.
+  void Read() try {
+    app_.parse(argc_, argv_);
+    unknown = CheckVariables(app_);
+    RequireNoEmptyFile(app_);
+    config.Validate();
+    config.given = GivenIn(app_);
+  } catch (const CLI::Success&) {
+    throw;
+  } catch (const CLI::ParseError& error) {
+    throw Placed(InOurWords(app_, *file_, error));
+  } catch (const Error& error) {
+    throw Placed(error.what());
+  }
+  /// Prints what --help and --version ask for.
+  void Answer(const CLI::Success& asked) { app_.exit(asked); }
+
+  ServerConfig config;
+  std::vector<std::string> unknown;
+
+ private:
+  Error Placed(const std::string& what) const {
+    return {ErrorCode::kInvalidArgument, "", PlaceInFile(what, *file_, argc_, argv_) + what};
+  }
+
+  const int argc_;
+  const char* const* const argv_;
+  CLI::App app_{
+      "choreod makes people dance: it serves the gRPC API choreo.v1.Choreography, with health "
+      "checking and reflection.\nEvery setting can also come from the environment or a file.",
+      "choreod"};
+  const std::shared_ptr<TomlFile> file_ = std::make_shared<TomlFile>(app_);
+};
+
 }  // namespace
 
 std::string ServerConfig::MetricsAddress() const {
@@ -196,38 +248,29 @@ void ServerConfig::Validate() const {
 }
 
 CommandLine ParseCommandLine(int argc, const char* const* argv) {
-  ServerConfig config;
+  Reading reading(argc, argv);
   const auto say = [&](const char* level, const std::string& what) {
-    const bool json = config.log_format == "json" || WantsJson(argc, argv);
+    const bool json = reading.config.log_format == "json" || WantsJson(argc, argv);
     std::cerr << (json ? JsonLine(level, what) : "choreod: " + what) << '\n';
   };
-  CLI::App app{
-      "choreod makes people dance: it serves the gRPC API choreo.v1.Choreography, with health "
-      "checking and reflection.\nEvery setting can also come from the environment or a file.",
-      "choreod"};
-  app.set_version_flag("--version", CHOREO_VERSION);
-  AddFlags(app, config);
-  const auto file = std::make_shared<TomlFile>(app);
-  app.config_formatter(file);
-  const auto complain = [&](const std::string& what) {
-    say("critical", PlaceInFile(what, *file, argc, argv) + what);
-  };
   try {
-    app.parse(argc, argv);
-    for (const std::string& variable : CheckVariables(app))
-      say("warning", variable + ": no setting has this variable; choreod --help lists them");
-    RequireNoEmptyFile(app);
-    config.Validate();
-    return {.config = std::move(config), .exit_code = 0};
-  } catch (const CLI::Success& error) {  // --help, --version
-    app.exit(error);
+    reading.Read();
+  } catch (const CLI::Success& asked) {
+    reading.Answer(asked);
     return {.config = std::nullopt, .exit_code = 0};
-  } catch (const CLI::ParseError& error) {
-    complain(InOurWords(app, *file, error));
   } catch (const Error& error) {
-    complain(error.what());
+    say("critical", error.what());
+    return {.config = std::nullopt, .exit_code = kMisused};
   }
-  return {.config = std::nullopt, .exit_code = kMisused};
+  for (const std::string& variable : reading.unknown)
+    say("warning", variable + ": no setting has this variable; choreod --help lists them");
+  return {.config = std::move(reading.config), .exit_code = 0};
+}
+
+ServerConfig RereadConfig(int argc, const char* const* argv) {
+  Reading reading(argc, argv);
+  reading.Read();
+  return std::move(reading.config);
 }
 
 std::vector<std::filesystem::path> ShippedCheckpoints(const std::vector<std::string>& names) {

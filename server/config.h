@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -57,6 +58,9 @@ struct ServerConfig {
   double max_load = 0.85;  ///< share of the machine's time that may be promised (FrameBudget)
   double max_connection_seconds = 0;  ///< age limit for new calls on a connection; 0: none
 
+  /// The settings that were given, as written, by flag without its dashes: {"max-streams", "64"}.
+  std::map<std::string, std::string> given;
+
   /// HOST:PORT of `metrics`; a port alone means this machine.
   std::string MetricsAddress() const;
   // These need `max_streams` above 0.
@@ -85,6 +89,10 @@ struct CommandLine {
 /// A flag overrides the file of --config (TOML), which overrides the flag's environment
 /// variable (CHOREO_LISTEN, ...).
 CommandLine ParseCommandLine(int argc, const char* const* argv);
+
+/// Reads the same settings again, with what the file of --config says now. Throws
+/// Error(kInvalidArgument), naming the file and line, for a bad one.
+ServerConfig RereadConfig(int argc, const char* const* argv);
 
 /// Finds shipped checkpoints by name, installed beside the program or in the source tree in which
 /// it was built. Without names it returns the default ones. Throws Error(kNotFound) that lists the

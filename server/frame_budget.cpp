@@ -23,14 +23,16 @@ void FrameBudget::TakeDance(const void* call, const SampleQueue& model, const st
 void FrameBudget::TakeTransition(const void* call, const SampleQueue& model,
                                  const std::string& party, int frames) {
   double frames_per_second = frames / kTransitionSeconds;
-  const double most = std::min(shares_.of_all, shares_.of_lone_peer) / 2;
+  const FrameShares shares = this->shares();
+  const double most = std::min(shares.of_all, shares.of_lone_peer) / 2;
   const double load = model.LoadOf(frames_per_second);
   if (load > most) frames_per_second *= most / load;
   Take(call, {&model, party, frames_per_second, false});
 }
 
 void FrameBudget::Take(const void* call, Charge charge) {
-  const double of_party = MostOf(charge.party, LoadOf(charge));
+  const FrameShares shares = this->shares();
+  const double of_party = MostOf(shares, charge.party, LoadOf(charge));
   const std::lock_guard lock(mutex_);
   const auto require = [&](const std::string* party, double most) {
     const double taken = LoadOf(party), load = LoadOf(party, &charge);
@@ -40,8 +42,8 @@ void FrameBudget::Take(const void* call, Charge charge) {
                       Percent(taken) + " of its time, with this one it would be " + Percent(load) +
                       ", of at most " + Percent(most) + (party ? " for one caller" : ""));
   };
-  if (shares_.of_all <= 1) {
-    require(nullptr, shares_.of_all);
+  if (shares.of_all <= 1) {
+    require(nullptr, shares.of_all);
     require(&charge.party, of_party);
   }
   if (!charge.dances) only_danced_ = false;
@@ -89,13 +91,24 @@ double FrameBudget::LoadOf(const std::string* party, const Charge* more) const {
   return load;
 }
 
-double FrameBudget::MostOf(const std::string& party, double cost) const {
-  if (!has_rival_ || !has_rival_(party)) return shares_.of_lone_peer;
-  return std::min(shares_.of_peer, shares_.of_all - cost);
+double FrameBudget::MostOf(const FrameShares& shares, const std::string& party, double cost) const {
+  if (!has_rival_ || !has_rival_(party)) return shares.of_lone_peer;
+  return std::min(shares.of_peer, shares.of_all - cost);
+}
+
+FrameShares FrameBudget::shares() const {
+  const std::lock_guard lock(mutex_);
+  return shares_;
+}
+
+void FrameBudget::SetShares(const FrameShares& shares) {
+  const std::lock_guard lock(mutex_);
+  shares_ = shares;
 }
 
 double FrameBudget::utilisation() const {
-  if (shares_.of_all > 1) return 0;
+  const FrameShares shares = this->shares();
+  if (shares.of_all > 1) return 0;
   struct Sum {
     double load = 0, largest = 0;
     void Add(double more) {
@@ -114,9 +127,9 @@ double FrameBudget::utilisation() const {
       of_party[charge.party].Add(load);
     }
   }
-  double most = all.load > 0 ? all.OfMost(shares_.of_all) : 0;
+  double most = all.load > 0 ? all.OfMost(shares.of_all) : 0;
   for (const auto& [party, sum] : of_party) {
-    if (sum.load > 0) most = std::max(most, sum.OfMost(MostOf(party, sum.largest)));
+    if (sum.load > 0) most = std::max(most, sum.OfMost(MostOf(shares, party, sum.largest)));
   }
   return most;
 }

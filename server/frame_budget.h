@@ -31,7 +31,7 @@ class FrameBudget {
   explicit FrameBudget(const FrameShares& shares,
                        std::function<bool(const std::string& party)> has_rival = {},
                        const ServingCost* serving = nullptr)
-      : shares_(shares), has_rival_(std::move(has_rival)), serving_(serving) {}
+      : has_rival_(std::move(has_rival)), serving_(serving), shares_(shares) {}
 
   /// Charges a dance, at playing speed however fast its music arrives. Throws Refused if it exceeds
   /// the time left. A lone caller's first call is always accepted, so that slow engines can serve
@@ -41,6 +41,8 @@ class FrameBudget {
   /// Charges at most half of all time, because a transition yields to dances anyway.
   void TakeTransition(const void* call, const SampleQueue& model, const std::string& party,
                       int frames);
+  /// Reserves by these shares from now on; calls in progress keep their charges.
+  void SetShares(const FrameShares& shares);
   /// Ends a call's charge. Ignores calls that were not charged.
   void GiveBack(const void* call) noexcept;
 
@@ -68,13 +70,15 @@ class FrameBudget {
   // mutex_.
   double LoadOf(const std::string* party, const Charge* more = nullptr) const;
 
-  // The most that this caller may reserve when its next call costs `cost`. Does not require mutex_.
-  double MostOf(const std::string& party, double cost) const;
+  // These do not require mutex_. MostOf: the most that this caller may reserve when its next call
+  // costs `cost`.
+  double MostOf(const FrameShares& shares, const std::string& party, double cost) const;
+  FrameShares shares() const;
 
-  const FrameShares shares_;
   const std::function<bool(const std::string& party)> has_rival_;
   const ServingCost* const serving_;
   mutable std::mutex mutex_;
+  FrameShares shares_;                     // lock: mutex_
   std::map<const void*, Charge> charges_;  // by call. Lock: mutex_
   bool only_danced_ = true;                // except transitions still in progress. Lock: mutex_
 };

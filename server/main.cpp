@@ -51,7 +51,7 @@ ModelFolder::Loader MakeLoader(const ServerConfig& config) {
   };
 }
 
-void Run(const ServerConfig& config) {
+void Run(const ServerConfig& config, const SettingsReader& reread) {
   HoldSignals();
   const BlasInfo blas = DetectBlas();
   const std::string warning = RequireFastBlas(blas);
@@ -61,7 +61,7 @@ void Run(const ServerConfig& config) {
   spdlog::info("BLAS {}", blas.name);
 
   RaiseDescriptorLimit();
-  Serve(config, MakeLoader(config));
+  Serve(config, MakeLoader(config), reread);
 }
 
 }  // namespace
@@ -72,7 +72,7 @@ int main(int argc, char** argv) {
   if (!command_line.config) return command_line.exit_code;
   choreo::StartLog(command_line.config->log_level, command_line.config->log_format == "json");
   try {
-    choreo::Run(*command_line.config);
+    choreo::Run(*command_line.config, [&] { return choreo::RereadConfig(argc, argv); });
     return 0;
   } catch (const std::exception& error) {
     spdlog::critical("{}", error.what());

@@ -10,9 +10,9 @@ namespace choreo {
 /// The results of a running server's latest attempts to reread files. Thread-safe.
 class Reloads {
  public:
-  enum What { kModels, kTokens, kCertificate };
+  enum What { kModels, kTokens, kCertificate, kSettings };
   /// Names in /metrics, in the order of the enum.
-  static constexpr std::array kNames = {"models", "tokens", "certificate"};
+  static constexpr std::array kNames = {"models", "tokens", "certificate", "settings"};
 
   struct State {
     bool good = true;

@@ -6,12 +6,10 @@
 #include <ucontext.h>
 #include <unistd.h>
 
-#include <condition_variable>
 #include <cstdlib>
 #include <ctime>
 #include <functional>
 #include <iostream>
-#include <mutex>
 #include <stop_token>
 #include <string>
 #include <thread>
@@ -65,44 +63,6 @@ class LeaveAtOnce {
   std::jthread thread_;
 };
 
-/// Rereads the folder of models on request. Uses its own thread, because loading takes seconds,
-/// during which signals must be handled. Requests during a reread cause one more.
-class Reloader {
- public:
-  Reloader(ModelFolder& folder, Server& server)
-      : thread_([this, &folder, &server](const std::stop_token& stop) {
-          std::unique_lock lock(mutex_);
-          while (wake_.wait(lock, stop, [this] { return asked_; })) {
-            asked_ = false;
-            loads_ = true;
-            lock.unlock();
-            TellManagerOfReload();
-            folder.Reload(server, [&stop] { return stop.stop_requested(); });
-            if (!stop.stop_requested()) TellManager("READY=1");
-            lock.lock();
-            loads_ = false;
-          }
-        }) {}
-
-  void Request() {
-    const std::lock_guard lock(mutex_);
-    asked_ = true;
-    wake_.notify_one();
-  }
-  /// Stops after the file that is being read; drops further requests.
-  void Stop() { thread_.request_stop(); }
-  bool loads() const {
-    const std::lock_guard lock(mutex_);
-    return loads_;
-  }
-
- private:
-  mutable std::mutex mutex_;
-  std::condition_variable_any wake_;
-  bool asked_ = false, loads_ = false;  // lock: mutex_
-  std::jthread thread_;                 // last, because it uses the members above
-};
-
 std::vector<Server::Samplers> LoadAll(const ServerConfig& config, ModelFolder& folder,
                                       const ModelFolder::Loader& load) {
   const LeaveAtOnce leave;
@@ -153,18 +113,18 @@ void HoldSignals() {
   for (const int one : {SIGTERM, SIGINT, SIGHUP}) sigaction(one, &action, nullptr);
 }
 
-void Serve(const ServerConfig& config, const ModelFolder::Loader& load) {
+void Serve(const ServerConfig& config, const ModelFolder::Loader& load,
+           const SettingsReader& reread) {
   ModelFolder folder(config.models, load);
   if (!config.check) RequireAddresses(config);  // a running server has them in use
   RequireSecrets(config);
-  const bool has_folder = !config.models.empty();
   std::vector<Server::Samplers> models = LoadAll(config, folder, load);
   if (config.check) {
     std::cout << "ok" << std::endl;
     return;
   }
   Server server(config, std::move(models));
-  Reloader reloader(folder, server);
+  Reloader reloader(config, reread, config.models.empty() ? nullptr : &folder, server);
   // Programs that start a choreod wait for this line.
   const std::string line = "choreod listens on " + SplitAddress(config.listen).host + ':' +
                            std::to_string(server.port());
@@ -173,20 +133,15 @@ void Serve(const ServerConfig& config, const ModelFolder::Loader& load) {
 
   const sigset_t heard = SetOf({SIGTERM, SIGINT, SIGHUP});
   int signal = 0;
-  while (sigwait(&heard, &signal) == 0 && signal == SIGHUP) {
-    if (has_folder) {
-      reloader.Request();
-    } else {
-      spdlog::info("{}: without --models there is nothing to reread", strsignal(signal));
-    }
-  }
-  spdlog::info("{}: draining for up to {} s; again to leave at once", strsignal(signal),
-               config.drain_seconds);
+  while (sigwait(&heard, &signal) == 0 && signal == SIGHUP) reloader.Request();
   reloader.Stop();
-  TellManager("STOPPING=1\nSTATUS=drains for up to " + std::to_string(config.drain_seconds) + " s");
+  const double drain_seconds = reloader.drain_seconds();
+  spdlog::info("{}: draining for up to {} s; again to leave at once", strsignal(signal),
+               drain_seconds);
+  TellManager("STOPPING=1\nSTATUS=drains for up to " + std::to_string(drain_seconds) + " s");
   {
     const LeaveAtOnce leave([&server] { server.GiveUp(); });
-    server.Drain(config.drain_seconds);
+    server.Drain(drain_seconds);
   }
   if (reloader.loads()) Leave();
 }

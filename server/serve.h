@@ -4,6 +4,7 @@
 
 #include "server/config.h"
 #include "server/model_folder.h"
+#include "server/reloader.h"
 
 /// The life of a choreod process, from its settings to its end. Only main uses it.
 namespace choreo {
@@ -12,12 +13,13 @@ namespace choreo {
 /// because they inherit the signal mask.
 void HoldSignals();
 
-/// Loads the models, reports the address, serves, and rereads a folder of models at SIGHUP. Returns
-/// after SIGTERM or SIGINT (or SIGHUP without a folder) and draining. Exits at once, with code 0,
-/// on a stop signal before it serves, on a second stop signal, or on one during the loading of a
-/// model when all calls have ended. With `check` it prints "ok" instead of serving. Throws what
-/// ModelFolder, `load` and Server throw.
-void Serve(const ServerConfig& config, const ModelFolder::Loader& load);
+/// Loads the models, reports the address, and serves. At SIGHUP it rereads the settings, by
+/// `reread`, and a folder of models. Returns after SIGTERM or SIGINT and draining. Exits at once,
+/// with code 0, on a stop signal before it serves, on a second stop signal, or on one during the
+/// loading of a model when all calls have ended. With `check` it prints "ok" instead of serving.
+/// Throws what ModelFolder, `load` and Server throw.
+void Serve(const ServerConfig& config, const ModelFolder::Loader& load,
+           const SettingsReader& reread);
 
 /// The exit status of choreod after `error`. kMisused for a bad setting or a bad file that a
 /// setting names, which a restart does not fix; otherwise kFailed.

@@ -134,21 +134,25 @@ SampleQueue::Options QueueingOf(const ServerConfig& config) {
   return {.max_bulk = config.max_waiting};
 }
 
-// Sets max_streams if the configuration does not. The speed measured at startup is only logged,
-// because other programs may be busy then. FrameBudget measures the dances themselves, and refuses
-// those for which the machine is too slow.
-ServerConfig WithStreams(ServerConfig config,
-                         const std::vector<std::unique_ptr<SampleQueue>>& queues) {
-  if (config.max_streams > 0) return config;
-  config.max_streams = std::max(kLeastStreams, config.max_streams_of_peer);
+// The default of max_streams. The speed measured at startup is only logged, because other programs
+// may be busy then. FrameBudget measures the dances themselves, and refuses those for which the
+// machine is too slow.
+int DefaultStreams(double max_load, const std::vector<std::unique_ptr<SampleQueue>>& queues) {
+  int streams = kLeastStreams;
   for (const auto& queue : queues) {
     const double fps = queue->model().fps, load = queue->LoadOf(fps);
     if (load <= 0) continue;  // not measured
-    const double carried = config.max_load / (load + ServingCost().LoadOf(fps));
     spdlog::info("model \"{}\": as busy as this machine is now, it carries {:.0f} dances at once",
-                 queue->model().name, carried);
-    config.max_streams = std::max(config.max_streams, UsableCores() * kStreamsPerCore);
+                 queue->model().name, max_load / (load + ServingCost().LoadOf(fps)));
+    streams = std::max(streams, UsableCores() * kStreamsPerCore);
   }
+  return streams;
+}
+
+// Sets max_streams if the configuration does not.
+ServerConfig WithStreams(ServerConfig config, int by_default) {
+  if (config.max_streams > 0) return config;
+  config.max_streams = std::max(by_default, config.max_streams_of_peer);
   spdlog::info("at most {} calls at once; --max-streams fixes the number", config.max_streams);
   return config;
 }
@@ -158,7 +162,8 @@ ServerConfig WithStreams(ServerConfig config,
 struct Server::Impl {
   Impl(const ServerConfig& given, std::vector<std::unique_ptr<SampleQueue>> queues,
        const TimeSource& time)
-      : config(WithStreams(given, queues)),
+      : default_streams(DefaultStreams(given.max_load, queues)),
+        config(WithStreams(given, default_streams)),
         serving(std::move(queues), LimitsOf(config), SharesOf(config), config.tokens,
                 static_cast<size_t>(config.outbox_kib) << 10,
                 int64_t{config.max_file_music_mib} << 20, config.io_threads, time),
@@ -275,7 +280,8 @@ struct Server::Impl {
     return true;
   }
 
-  const ServerConfig config;
+  const int default_streams;
+  const ServerConfig config;  // of the start
   Serving serving;
   ChoreographyService service;
   HandshakeWatch handshakes;
@@ -317,7 +323,17 @@ bool Server::SetModels(const std::vector<std::string>& names, std::vector<Sample
   return true;
 }
 
+void Server::SetLimits(const ServerConfig& config) {
+  const ServerConfig complete = WithStreams(config, impl_->default_streams);
+  impl_->serving.calls.SetLimits(LimitsOf(complete));
+  impl_->serving.frames.SetShares(SharesOf(complete));
+}
+
 void Server::NoteModelReload(bool good) { impl_->serving.reloads.Note(Reloads::kModels, good); }
+
+void Server::NoteSettingsReload(bool good) {
+  impl_->serving.reloads.Note(Reloads::kSettings, good);
+}
 
 void Server::Drain(double seconds) {
   if (impl_->drained.exchange(true)) return;

@@ -48,8 +48,14 @@ class Server {
   /// name, for a name without a model, and for engines that do not match.
   bool SetModels(const std::vector<std::string>& names, std::vector<Samplers> fresh);
 
-  /// Records for /metrics whether the latest reread of the folder of models succeeded.
+  /// Uses these limits on calls, callers, idle times and load from now on; calls in progress stay.
+  /// The limit on calls of one connection remains that of the start.
+  void SetLimits(const ServerConfig& config);
+
+  /// Records for /metrics whether the latest reread of the folder of models, or of the settings,
+  /// succeeded.
   void NoteModelReload(bool good);
+  void NoteSettingsReload(bool good);
 
   /// Drains and shuts down the server; it is shut down on return. At once, health becomes
   /// NOT_SERVING and new calls fail with UNAVAILABLE. Calls in progress may continue for `seconds`,

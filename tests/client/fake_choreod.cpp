@@ -44,7 +44,7 @@ int main(int argc, char** argv) {
   choreo::StartLog(config.log_level, config.log_format == "json");
   choreo::HoldSignals();
   try {
-    choreo::Serve(config, Load);
+    choreo::Serve(config, Load, [&] { return choreo::RereadConfig(argc, argv); });
     return 0;
   } catch (const std::exception& error) {
     spdlog::critical("{}", error.what());

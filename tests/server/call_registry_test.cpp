@@ -48,6 +48,16 @@ class CallRegistryTest : public testing::Test {
   std::vector<std::shared_ptr<SilentCall>> calls;
 };
 
+TEST_F(CallRegistryTest, LimitsMayChangeMeanwhile) {
+  for (int i = 0; i < kCalls; ++i) EXPECT_TRUE(Come("ipv4:10.0.0.1"));
+  EXPECT_FALSE(Come("ipv4:10.0.0.1"));
+  registry.SetLimits({.calls = kCalls + 1, .calls_of_peer = 1, .calls_of_lone_peer = kCalls + 1});
+  EXPECT_TRUE(Come("ipv4:10.0.0.1"));
+  registry.SetLimits({.calls = 1, .calls_of_peer = 1, .calls_of_lone_peer = 1});
+  EXPECT_EQ(registry.count(), kCalls + 1) << "who is there stays";
+  EXPECT_FALSE(Come("ipv4:10.0.0.1"));
+}
+
 TEST_F(CallRegistryTest, CallersHaveTheirOwnPlaces) {
   for (int i = 0; i < kOfPeer - 1; ++i) EXPECT_TRUE(Come("ipv4:10.0.0.1"));
   EXPECT_TRUE(Come("ipv6:[::1]"));

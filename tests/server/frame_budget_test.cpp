@@ -50,6 +50,13 @@ TEST_F(FrameBudgetTest, AdmitsWhatTheEnginesCanServe) {
   EXPECT_THROW(budget.TakeDance(&calls[101], *models[0], "a"), Error);
 }
 
+TEST_F(FrameBudgetTest, SharesMayChangeMeanwhile) {
+  FrameBudget budget(kShares);
+  EXPECT_EQ(TakeDances(budget, *models[0], "a", calls), 18);
+  budget.SetShares({.of_all = 1.0, .of_peer = 1.0, .of_lone_peer = 1.0});
+  EXPECT_EQ(TakeDances(budget, *models[0], "a", calls + 100), 2);
+}
+
 TEST_F(FrameBudgetTest, ModelsShareTheTime) {
   FrameBudget budget(kShares);
   for (int i = 0; i < 9; ++i) budget.TakeDance(&calls[i], *models[0], "a");

@@ -85,15 +85,15 @@ class ServeTest : public testing::Test {
     return ended_.get();
   }
 
-  TemporaryFolder folder_;
-
- private:
   std::string Read(const std::string& name) const {
     std::ostringstream content;
     content << std::ifstream(folder_ / name).rdbuf();
     return content.str();
   }
 
+  TemporaryFolder folder_;
+
+ private:
   pid_t process_ = -1;
   int fifo_ = -1;
   std::future<Outcome> ended_;
@@ -141,8 +141,32 @@ TEST_F(ServeTest, OutlivesSighupWithoutAFolder) {
   EXPECT_EQ(client.Dance({.frames = 20}, {}, {}).motion.frames.size(), 20U);
   Send(SIGTERM);
   const Outcome outcome = End();
-  EXPECT_THAT(outcome.said, HasSubstr("nothing to reread"));
+  EXPECT_THAT(outcome.said, HasSubstr("settings: none has changed"));
   EXPECT_THAT(outcome.said, HasSubstr("served 1 calls"));
+}
+
+TEST_F(ServeTest, RereadsItsSettingsOnSighup) {
+  const std::string file = (folder_ / "choreod.toml").string();
+  std::ofstream(file) << "max-streams = 5\n";
+  Start("--config '" + file + "'", "tee '" + (folder_ / "log").string() + "'");
+  AwaitListening();
+  const client::Client client({.addresses = {address()}});
+  const auto limit = [&] { return client.GetServerInfo().limits.max_streams; };
+  EXPECT_EQ(limit(), 5);
+  std::ofstream(file) << "max-streams = 7\nio-threads = 3\nlog-level = \"debug\"\n";
+  Send(SIGHUP);
+  ExpectEventually([&] { return limit() == 7; }, "the new limit is in use");
+  std::ofstream(file) << "max-streams = -1\n";
+  Send(SIGHUP);
+  ExpectEventually([&] { return Read("log").find("stay as they were") != std::string::npos; },
+                   "the bad setting is refused");
+  EXPECT_EQ(limit(), 7);
+  Send(SIGTERM);
+  const Outcome outcome = End();
+  EXPECT_THAT(outcome.said, HasSubstr("settings: max-streams is 7, was 5"));
+  EXPECT_THAT(outcome.said,
+              HasSubstr("settings: io-threads is 3, was the default; that needs a restart"));
+  EXPECT_THAT(outcome.said, HasSubstr(file + ":1: --max-streams: -1 is not in"));
 }
 
 TEST_F(ServeTest, FindsATakenAddressBeforeLoadingModels) {

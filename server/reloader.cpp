@@ -1,0 +1,75 @@
+#include "server/reloader.h"
+
+#include <spdlog/spdlog.h>
+
+#include <exception>
+#include <utility>
+
+#include "server/live_settings.h"
+#include "server/service_manager.h"
+
+namespace choreo {
+
+Reloader::Reloader(ServerConfig config, SettingsReader read, ModelFolder* folder, Server& server)
+    : read_(std::move(read)),
+      folder_(folder),
+      server_(server),
+      config_(std::move(config)),
+      thread_([this](const std::stop_token& stop) { Run(stop); }) {}
+
+void Reloader::Request() {
+  const std::lock_guard lock(mutex_);
+  asked_ = true;
+  wake_.notify_one();
+}
+
+bool Reloader::loads() const {
+  const std::lock_guard lock(mutex_);
+  return loads_;
+}
+
+double Reloader::drain_seconds() const {
+  const std::lock_guard lock(mutex_);
+  return config_.drain_seconds;
+}
+
+void Reloader::Run(const std::stop_token& stop) {
+  std::unique_lock lock(mutex_);
+  while (wake_.wait(lock, stop, [this] { return asked_; })) {
+    asked_ = false;
+    loads_ = true;
+    lock.unlock();
+    TellManagerOfReload();
+    RereadSettings();
+    if (folder_ != nullptr) folder_->Reload(server_, [&stop] { return stop.stop_requested(); });
+    if (!stop.stop_requested()) TellManager("READY=1");
+    lock.lock();
+    loads_ = false;
+  }
+}
+
+void Reloader::RereadSettings() {
+  ServerConfig config;
+  SettingsChange change;
+  try {
+    const ServerConfig fresh = read_();
+    const std::lock_guard lock(mutex_);
+    change = TakeOver(fresh, &config_);
+    config = config_;
+  } catch (const std::exception& error) {
+    server_.NoteSettingsReload(false);
+    spdlog::error("{}; all settings stay as they were", error.what());
+    return;
+  }
+  server_.NoteSettingsReload(true);
+  if (!change.used.empty()) {
+    server_.SetLimits(config);
+    spdlog::set_level(spdlog::level::from_str(config.log_level));
+  }
+  for (const std::string& one : change.used) spdlog::info("settings: {}", one);
+  for (const std::string& one : change.waiting)
+    spdlog::warn("settings: {}; that needs a restart", one);
+  if (change.used.empty() && change.waiting.empty()) spdlog::info("settings: none has changed");
+}
+
+}  // namespace choreo
