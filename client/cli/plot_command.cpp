@@ -18,6 +18,7 @@
 #include "model/formats/motion_file.h"
 #include "model/motion/kinematic_beats.h"
 #include "model/motion/kinematics.h"
+#include "model/motion/path_curve.h"
 #include "model/motion/velocity_factors.h"
 
 namespace choreo::cli {
@@ -97,18 +98,21 @@ authoring::Counts CountsOf(const PlotOptions& options) {
       options.song, std::numeric_limits<double>::infinity(), options.song_start_s, options.beats));
 }
 
+/// The curve that the dance is asked to follow through the points of a path file.
 PlotSeries AskedOf(const std::string& path, const authoring::Counts& counts, double fps,
                    bool height) {
-  const auto asked =
-      authoring::ParsePathFile(authoring::ReadText(path, "path file"), path, fps, counts);
-  if (height && asked.heights.empty()) throw InvalidArgument("--path", path + " has no heights");
+  const PathCurve asked(
+      authoring::ParsePathFile(authoring::ReadText(path, "path file"), path, fps, counts));
+  if (height && !asked.has_heights()) throw InvalidArgument("--path", path + " has no heights");
   PlotSeries line{.label = "asked", .x = {}, .y = {}, .asked = true};
-  for (size_t i = 0; i < asked.points.size(); ++i) {
+  for (int64_t frame = asked.first(); frame <= asked.last(); ++frame) {
+    const auto time = static_cast<double>(frame);
+    const Eigen::Vector3d place = asked.At(time).position;
     if (height) {
-      line.x.push_back(static_cast<double>(asked.frames[i]) / fps);
-      line.y.push_back(asked.heights[i]);
+      line.x.push_back(time / fps);
+      line.y.push_back(place.y());
     } else {
-      AddPlace({asked.points[i].x(), 0, asked.points[i].y()}, &line);
+      AddPlace(place, &line);
     }
   }
   return line;

@@ -6,6 +6,7 @@
 
 #include "model/formats/motion_file.h"
 #include "model/motion/kinematics.h"
+#include "model/motion/path_curve.h"
 #include "tests/client/command_fixture.h"
 #include "tests/client/test_music.h"
 #include "tests/draw/decoded_png.h"
@@ -71,6 +72,34 @@ TEST_F(PlotCommandTest, DrawsRequestsBesideResults) {
   EXPECT_GT(ink("trunk " + both + " --asked 0.5"), ink("trunk " + both) + 100);
   // One each has its motion's colour.
   EXPECT_LT(ink("trunk " + both + " --asked 0.5 --asked 0.6"), ink("trunk " + both) + 100);
+}
+
+// A dance on the curve hides what was asked for; straight legs between the points would cut
+// corners.
+TEST_F(PlotCommandTest, DrawsAPathAsTheCurveThatIsDanced) {
+  const PathCurve curve({.frames = {0, 30, 60}, .points = {{0, 0}, {0.6, 0}, {0.6, 0.6}}});
+  Motion motion;
+  std::string points;
+  for (int frame = 0; frame <= 60; ++frame) {
+    Pose pose = RestPose(Skeleton::Smpl24());
+    pose.root_position = curve.At(frame).position;
+    motion.frames.push_back(pose);
+    points += (points.empty() ? "" : ", ") + std::string("{\"time\": ") +
+              std::to_string(frame / 30.0) + ", \"x\": " + std::to_string(pose.root_position.x()) +
+              ", \"z\": " + std::to_string(pose.root_position.z()) + "}";
+  }
+  WriteMotion(folder_ / "curve.npz", Skeleton::Smpl24(), motion);
+  std::ofstream(folder_ / "all.json") << R"({"points": [)" << points << "]}";
+  std::ofstream(folder_ / "corner.json")
+      << R"({"points": [{"time": 0, "x": 0, "z": 0}, {"time": 1, "x": 0.6, "z": 0},
+                        {"time": 2, "x": 0.6, "z": 0.6}]})";
+  const auto ink = [&](const std::string& path) {
+    const std::string twice = At("curve.npz") + " " + At("curve.npz");
+    const Outcome outcome = Plot("path " + twice + " --path " + At(path));
+    EXPECT_EQ(outcome.code, 0) << outcome.said;
+    return Drawn(kInk);
+  };
+  EXPECT_NEAR(ink("corner.json"), ink("all.json"), 20);
 }
 
 // Paper F's Figure 4: the speed, its maxima in its colour, the song's beats in ink.

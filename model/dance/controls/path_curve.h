@@ -1,11 +1,9 @@
 #pragma once
 
-#include <Eigen/Core>
-#include <cstdint>
 #include <string>
-#include <vector>
 
 #include "model/motion/control_request.h"
+#include "model/motion/path_curve.h"
 
 namespace choreo {
 
@@ -16,37 +14,5 @@ inline constexpr double kMaxRootHeight = 2;
 /// or are outside a dance, points that are not finite or are further than kMaxPosition from the
 /// origin, different numbers of heights and points, or heights outside [0, kMaxRootHeight].
 void ValidatePath(const RootPath& path, const std::string& field);
-
-/// A position and its velocity.
-struct PathPoint {
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< metres
-  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< metres per frame
-};
-
-/// The cubic from `from` to `to` over `duration` frames, evaluated `t` frames after its start.
-PathPoint CubicBetween(const PathPoint& from, const PathPoint& to, double duration, double t);
-
-/// The curve through a path's points: piecewise cubic in time, with continuous velocity. The
-/// velocity at a point is that of the parabola through it and its neighbours, limited to three
-/// times the speed of the slower adjacent leg. So the curve rests between equal points and does not
-/// overshoot far. Moving or turning the points moves or turns the curve. Immutable.
-class PathCurve {
- public:
-  /// The path must be valid.
-  explicit PathCurve(const RootPath& path);
-
-  int64_t first() const { return frames_.front(); }
-  int64_t last() const { return frames_.back(); }
-  bool Covers(int64_t frame) const { return frame >= first() && frame <= last(); }
-  bool has_heights() const { return has_heights_; }
-  /// The position and velocity at a frame. The curve is straight before the first and after the
-  /// last point. y is 0 without heights.
-  PathPoint At(double frame) const;
-
- private:
-  std::vector<int64_t> frames_;
-  std::vector<PathPoint> points_;
-  bool has_heights_;
-};
 
 }  // namespace choreo
