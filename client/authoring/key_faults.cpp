@@ -27,7 +27,7 @@ std::string LostJump(const client::KeyPose& key, const Skeleton& skeleton) {
 }
 
 TimedPose Timed(const client::KeyPose& key, double fps) {
-  return {key.id, static_cast<double>(FrameOf(key, fps)) / fps, key.pose, key.mask};
+  return {key.id, static_cast<double>(FrameOf(key, fps)) / fps, key.pose, key.mask, key.hit};
 }
 
 }  // namespace

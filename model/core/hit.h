@@ -7,4 +7,8 @@ namespace choreo {
 /// backwards (HitTime).
 inline constexpr double kMaxHit = 3;
 
+/// The time before a key that its hit affects, in seconds. 0.5 would be too short, because Arrival
+/// smooths the last 0.4 s.
+inline constexpr double kHitSeconds = 0.8;
+
 }  // namespace choreo

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/core/hit.h"
 #include "model/core/rounded.h"
 #include "model/motion/floor_clearance.h"
 #include "model/motion/kinematics.h"
@@ -18,6 +19,8 @@ constexpr double kUnderFloor = 0.05;     // metres of tolerance for rounded pose
 constexpr double kInAir = 0.15;          // metres; less may be tiptoe
 constexpr double kMaxJumpSeconds = 1.0;  // seconds
 constexpr double kLimbSpeed = 7;         // m/s, about the body
+
+constexpr double kInstant = 1e-6;  // seconds of tolerance
 
 bool AsksForAll(const PoseMask& mask) {
   return mask.root_position && std::ranges::find(mask.joints, false) == mask.joints.end();
@@ -60,6 +63,15 @@ std::string SpeedFault(const Skeleton& skeleton, const TimedPose& from, const Ti
          Rounded(kLimbSpeed);
 }
 
+/// Describes a hit whose way to the pose is too short.
+std::string HitFault(const TimedPose& from, const TimedPose& to) {
+  const double seconds = to.seconds - from.seconds;
+  if (!to.hit || *to.hit == 1 || !(seconds > 0) || seconds > kHitSeconds - kInstant) return "";
+  return "a hit of " + Rounded(*to.hit) + " shapes the last " + Rounded(kHitSeconds) +
+         " s of the way, and from \"" + from.name + "\" to \"" + to.name + "\" are only " +
+         Rounded(seconds) + " s, so it hardly shows";
+}
+
 }  // namespace
 
 std::vector<std::string> BendFaults(const Skeleton& skeleton, const Pose& pose,
@@ -98,13 +110,15 @@ std::string HoldFault(const Skeleton& skeleton, const Pose& pose, const PoseMask
 }
 
 std::vector<TimedFault> DanceFaults(const Skeleton& skeleton, const std::vector<TimedPose>& poses) {
+  const TimedPose start = {"the start", 0, RestPose(skeleton)};
   std::vector<TimedFault> faults;
   size_t in_air = 0;  // poses since the feet left the floor
   for (size_t i = 0; i < poses.size(); ++i) {
     const TimedPose& one = poses[i];
-    if (i > 0) {
-      if (std::string fault = SpeedFault(skeleton, poses[i - 1], one); !fault.empty())
-        faults.push_back({i, std::move(fault)});
+    const TimedPose& before = i > 0 ? poses[i - 1] : start;
+    std::string found[] = {i > 0 ? SpeedFault(skeleton, before, one) : "", HitFault(before, one)};
+    for (std::string& fault : found) {
+      if (!fault.empty()) faults.push_back({i, std::move(fault)});
     }
     in_air = AsksForAll(one.mask) && HeightAboveFloor(skeleton, one.pose) > kInAir ? in_air + 1 : 0;
     if (in_air < 2) continue;

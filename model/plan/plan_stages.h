@@ -54,10 +54,6 @@ std::vector<double> TimesOnBeats(const PlanContext& context, std::span<const dou
 void Retime(const PlanContext& context, int first, std::span<const double> times,
             std::vector<Pose>* plan);
 
-/// The time before a key that its hit affects, in seconds. 0.5 would be too short, because Arrival
-/// smooths the last 0.4 s.
-inline constexpr double kHitSeconds = 0.8;
-
 /// Retimes the frames before a plan's key, the last frame, by its hit, 0 to kMaxHit. The last
 /// kHitSeconds, or the whole of a shorter plan, start at their usual speed and reach the key at
 /// `hit` times that speed (HitTime). A hit of 1 changes nothing. A root path keeps its positions

@@ -81,6 +81,17 @@ TEST(DanceFaults, NamesBodiesThatStayInTheAir) {
               ElementsAre("b: the body would be in the air for 2 s, since \"a\"; a jump takes 1"));
 }
 
+TEST(DanceFaults, NamesHitsWithoutTimeForThem) {
+  EXPECT_THAT(Messages({{"a", 1, At(0)}, {"b", 1.5, At(0), {}, 3}}),
+              ElementsAre("b: a hit of 3 shapes the last 0.8 s of the way, and from \"a\" to \"b\" "
+                          "are only 0.5 s, so it hardly shows"));
+  EXPECT_THAT(Messages({{"b", 0.5, At(0), {}, 0}}),
+              ElementsAre(testing::HasSubstr("from \"the start\" to \"b\"")));
+  // A hit of 1 keeps the dance's own timing.
+  EXPECT_THAT(Messages({{"a", 1, At(0)}, {"b", 1.5, At(0), {}, 1}, {"c", 2.3, At(0), {}, 3}}),
+              IsEmpty());
+}
+
 TEST(HoldFault, NamesAJumpThatIsHeldForLongerThanItLasts) {
   Pose up = At(0);
   up.root_position.y() += 0.25 - HeightAboveFloor(Body(), up);
