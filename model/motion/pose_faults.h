@@ -43,9 +43,10 @@ struct TimedFault {
 };
 
 /// Finds faults between poses in time: limbs that would move too fast ("left_hand would go 9.3 m/s
-/// about the body from "a" to "b"; people reach 7"), a hit without time for it, and a body in the
-/// air for longer than a jump lasts. The time before the first pose starts at second 0, standing.
-/// The server warns about each pose's own faults and about bodies that travel too fast.
+/// about the body from "a" to "b"; people reach 7"), a pelvis that would go to the floor or rise
+/// from it too fast, a hit without time for it, and a body in the air for longer than a jump lasts.
+/// The time before the first pose starts at second 0, standing. The server warns about each pose's
+/// own faults and about bodies that travel too fast.
 std::vector<TimedFault> DanceFaults(const Skeleton& skeleton, const std::vector<TimedPose>& poses);
 
 }  // namespace choreo

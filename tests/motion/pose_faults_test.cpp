@@ -81,6 +81,29 @@ TEST(DanceFaults, NamesBodiesThatStayInTheAir) {
               ElementsAre("b: the body would be in the air for 2 s, since \"a\"; a jump takes 1"));
 }
 
+// A plank in half a second is reached, but by a fall.
+TEST(DanceFaults, NamesTheTimeThatAWayToTheFloorTakes) {
+  const Pose low = At(0, -0.6);
+  EXPECT_THAT(Messages({{"a", 1, At(0)}, {"plank", 1.5, low}}),
+              ElementsAre("plank: the pelvis would sink 0.6 m in 0.5 s from \"a\" to \"plank\"; "
+                          "that takes 0.6 s, and dancers usually take 1.2"));
+  EXPECT_THAT(Messages({{"plank", 1, low}, {"up", 1.5, At(0)}}),
+              ElementsAre(testing::HasSubstr("up: the pelvis would rise 0.6 m in 0.5 s")));
+  EXPECT_THAT(Messages({{"plank", 0.4, low}}),
+              ElementsAre(testing::HasSubstr("in 0.4 s from \"the start\" to \"plank\"")));
+  EXPECT_THAT(Messages({{"a", 1, At(0)}, {"plank", 1.7, low}, {"up", 2.4, At(0)}}), IsEmpty());
+  // A bend of the knees, and a jump, are no ways to the floor.
+  EXPECT_THAT(Messages({{"a", 1, At(0)}, {"bend", 1.2, At(0, -0.25)}}), IsEmpty());
+  EXPECT_THAT(Messages({{"bend", 1, At(0, -0.25)}, {"jump", 1.3, At(0, 0.4)}}), IsEmpty());
+  // A pose without a place stands or lies on the floor.
+  PoseMask nowhere;
+  nowhere.root_position = false;
+  Pose lying = At(0);
+  lying.rotations(0, 0) = 1.5;
+  EXPECT_THAT(Messages({{"a", 1, At(0), nowhere}, {"lying", 1.3, lying, nowhere}}),
+              ElementsAre(testing::HasSubstr("lying: the pelvis would sink")));
+}
+
 TEST(DanceFaults, NamesHitsWithoutTimeForThem) {
   EXPECT_THAT(Messages({{"a", 1, At(0)}, {"b", 1.5, At(0), {}, 3}}),
               ElementsAre("b: a hit of 3 shapes the last 0.8 s of the way, and from \"a\" to \"b\" "
