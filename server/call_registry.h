@@ -67,7 +67,7 @@ class CallRegistry {
  public:
   /// `time` must outlive this.
   explicit CallRegistry(const CallLimits& limits, const TimeSource& time = TimeSource::System())
-      : limits_(limits), time_(time) {}
+      : time_(time), limits_(limits) {}
 
   /// `party`: the caller to whom the call is counted (Caller::Party). Throws Refused if the caller
   /// has too many calls, and after StopAdmitting.
