@@ -7,6 +7,7 @@
 #include <mutex>
 #include <thread>
 
+#include "bench/cold_start.h"
 #include "bench/edited_dance.h"
 #include "bench/lateness.h"
 #include "bench/relay.h"
@@ -31,7 +32,8 @@ struct Options {
   double seconds = 8;
   std::vector<int> streams = {1, 20, 50, 60, 200};
   std::vector<int> addresses = {1, 4};
-  std::vector<std::string> tables = {"chunks", "live", "beside", "edits", "closed", "minutes"};
+  std::vector<std::string> tables = {"start", "chunks", "live",   "beside",
+                                     "edits", "closed", "minutes"};
 };
 
 double Since(Clock::time_point start) {
@@ -71,6 +73,22 @@ class Load {
     std::printf("model %s on %s, %u cores; dances of %g s in real time, a key each 2 s\n",
                 server.models.front().name.c_str(), server.devices.front().c_str(),
                 std::thread::hardware_concurrency(), options.seconds);
+  }
+
+  /// Dances for which a server is started, once the programs are in the system's cache.
+  void Starts() {
+    constexpr int kTimes = 5;
+    std::vector<double> listens_ms, first_ms;
+    for (int i = 0; i < kTimes; ++i) {
+      const ColdStart cold = DanceFromStart(song_);
+      listens_ms.push_back(cold.listens_ms);
+      first_ms.push_back(cold.first_frame_ms);
+    }
+    std::printf(
+        "\n| a dance without a server | until it listens p50 ms | until the first frame p50 ms |\n"
+        "|---|---|---|\n| started %d times | %.0f | %.0f |\n",
+        kTimes, Percentile(listens_ms, 0.5), Percentile(first_ms, 0.5));
+    std::fflush(stdout);
   }
 
   /// Lateness by the size of music chunks, with four dances at once.
@@ -380,8 +398,9 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   const std::vector<std::pair<std::string, void (Load::*)()>> tables = {
       {"idle", &Load::Idle},  // first: memory freed by other tables would hide its use
-      {"chunks", &Load::Chunks}, {"live", &Load::Streams},  {"beside", &Load::Beside},
-      {"edits", &Load::Edits},   {"closed", &Load::Closed}, {"minutes", &Load::Minutes}};
+      {"start", &Load::Starts},   {"chunks", &Load::Chunks}, {"live", &Load::Streams},
+      {"beside", &Load::Beside},  {"edits", &Load::Edits},   {"closed", &Load::Closed},
+      {"minutes", &Load::Minutes}};
   std::vector<std::string> names;
   for (const auto& table : tables) names.push_back(table.first);
   program.add_option("--tables", options.tables, "What to measure.")
