@@ -76,7 +76,7 @@ void FillInEnergy(const FlowModelParts& model, const EnergyPrior::Levels& level_
   levels = model.energy.Sample(known, levels);
   const bool varies = model.curve.known();
   curves = varies ? model.curve.Sample(temperature * (known.history - levels), curves)
-                 : Eigen::MatrixXd::Zero(kBodyParts, request->frames);
+                  : Eigen::MatrixXd::Zero(kBodyParts, request->frames);
   curves.colwise() += levels;
   if (varies) curves = model.energy.Bound(curves);
   levels.array() += request->energy_shift.now;

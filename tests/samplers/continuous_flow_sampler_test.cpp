@@ -129,8 +129,8 @@ TEST_F(ContinuousFlowSamplerTest, CudaDancesAsTheCpuDoes) {
 }
 
 // Windows are of 16 frames, each of four evaluations with beats (at this temperature the mean way,
-// too) and three without, of all but the last; three rounds where energy is asked for; the plan's
-// stages are the last slice.
+// too) and three without, of all but the last; three rounds where energy is asked for. What
+// follows the last evaluation is the last slice.
 TEST_F(ContinuousFlowSamplerTest, InterleavedSlicesGiveTheSameBits) {
   TransitionSpec lively = Spec(2, 40);
   lively.controls[kVelocityFactors].values.setConstant(kBodyParts, lively.frames, 0.05F);
