@@ -1,6 +1,7 @@
 #include "studio/company.h"
 
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "client/authoring/formation.h"
@@ -47,7 +48,7 @@ void WriteAll(const Skeleton& skeleton, const authoring::Dancers& stage,
 Response FormCompany(const StudioContext& context, const Company& request) {
   const Skeleton& skeleton = context.model().skeleton;
   const authoring::Dancers stage =
-      authoring::ParseDancers(DancersText(request.project()), kUnnamed, "");
+      authoring::ParseDancers(DancersJson(request.project()), kUnnamed, "");
   Response response;
   Formation* formation = response.mutable_formation();
   const std::vector<double> beats(request.beats().begin(), request.beats().end());

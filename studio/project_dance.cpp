@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "client/arrange.h"
-#include "client/authoring/json_fields.h"
 #include "client/authoring/key_faults.h"
 #include "client/authoring/key_file.h"
 #include "client/convert.h"
@@ -71,8 +70,7 @@ ProjectDance DanceOf(const StudioContext& context, const authoring::Project& pro
     authoring::ConfigureMusic(song->music, seconds, &config);
   }
   if (!project.has_keys) return dance;
-  dance.keys.poses =
-      authoring::ParseKeyFile(file.dump(), kUnnamed, model.skeleton, &dance.keys.places, counts);
+  dance.keys.poses = authoring::KeysIn(file, kUnnamed, model.skeleton, &dance.keys.places, counts);
   for (size_t i = 0; i < dance.keys.poses.size(); ++i)
     authoring::FitIntoDance({*config.frames, model.fps}, dance.keys.places[i],
                             &dance.keys.poses[i]);
@@ -81,7 +79,7 @@ ProjectDance DanceOf(const StudioContext& context, const authoring::Project& pro
 }
 
 ProjectDance DanceOf(const StudioContext& context, const Project& project, const Song* song) {
-  const nlohmann::json file = authoring::ParseJson(ProjectText(context, project), kUnnamed);
+  const nlohmann::json file = ProjectJson(context, project);
   const authoring::Project read = authoring::ParseProject(file, kUnnamed);
   if (!song && !read.seconds)
     throw InvalidArgument(std::string(kUnnamed) + ":seconds", "is missing, and there is no song");

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <string>
+#include <nlohmann/json_fwd.hpp>
 
 #include "studio/studio_context.h"
 
@@ -16,11 +16,12 @@ Response ReadProject(const StudioContext& context, const ProjectFile& request);
 /// name.
 Response WriteProject(const StudioContext& context, const Project& project);
 
-/// The file's text, unchecked.
-std::string ProjectText(const StudioContext& context, const Project& project);
+/// The file's content, unchecked.
+nlohmann::ordered_json ProjectJson(const StudioContext& context, const Project& project);
 
-/// Writes the file of a project's dancers without their own keys (client/authoring/dancers.h).
-std::string DancersText(const Project& project);
+/// The content of a file of the project's dancers without their own keys
+/// (client/authoring/dancers.h).
+nlohmann::ordered_json DancersJson(const Project& project);
 
 inline constexpr const char* kUnnamed = "project";  ///< the name of input in errors
 

@@ -100,12 +100,11 @@ uint64_t ForPage(uint64_t seed, const std::string& field) {
                                    ", the largest that the studio knows");
 }
 
-void TellDancers(const ProjectFile& request, const StudioContext& context,
-                 const authoring::Counts& counts, Project* said) {
+void TellDancers(const ProjectFile& request, const nlohmann::json& file,
+                 const StudioContext& context, const authoring::Counts& counts, Project* said) {
   const ScratchFolder folder;
   Keep(request.key_files(), folder);
-  const authoring::Dancers stage =
-      authoring::ParseDancers(request.file().data(), request.file().name(), "");
+  const authoring::Dancers stage = authoring::ParseDancers(file, request.file().name(), "");
   said->set_apart(stage.apart);
   for (const authoring::Dancer& dancer : stage.dancers) {
     const std::string field = At(request.file().name() + ":dancers", said->dancers_size());
@@ -172,11 +171,10 @@ Response ReadProject(const StudioContext& context, const ProjectFile& request) {
   }
   if (read.has_keys || !is_project) {
     authoring::DanceKeys keys;
-    keys.poses = authoring::ParseKeyFile(request.file().data(), name, context.model().skeleton,
-                                         &keys.places, counts);
+    keys.poses = authoring::KeysIn(file, name, context.model().skeleton, &keys.places, counts);
     TellKeys(std::move(keys), context, said->mutable_keys());
   }
-  if (read.has_dancers) TellDancers(request, context, counts, said);
+  if (read.has_dancers) TellDancers(request, file, context, counts, said);
   return response;
 }
 

@@ -90,7 +90,9 @@ ordered_json DancersOf(const Project& project) {
   return dancers;
 }
 
-ordered_json FileOf(const Project& project, const StudioContext& context) {
+}  // namespace
+
+ordered_json ProjectJson(const StudioContext& context, const Project& project) {
   const double fps = context.model().fps;
   ordered_json file = {{"studio", 1}, {"song", project.song()}};
   if (project.has_seconds()) file["seconds"] = Number(project.seconds());
@@ -129,25 +131,18 @@ ordered_json FileOf(const Project& project, const StudioContext& context) {
   return file;
 }
 
-}  // namespace
-
 Response WriteProject(const StudioContext& context, const Project& project) {
   ProjectFile written;
   written.mutable_file()->set_name(kUnnamed);
-  written.mutable_file()->set_data(ProjectText(context, project));
+  written.mutable_file()->set_data(authoring::ProjectText(ProjectJson(context, project)));
   ReadProject(context, written);
   Response response;
   *response.mutable_file() = std::move(*written.mutable_file());
   return response;
 }
 
-std::string ProjectText(const StudioContext& context, const Project& project) {
-  return authoring::ProjectText(FileOf(project, context));
-}
-
-std::string DancersText(const Project& project) {
-  const ordered_json file = {{"dancers", DancersOf(project)}, {"apart", Number(project.apart())}};
-  return file.dump();
+ordered_json DancersJson(const Project& project) {
+  return {{"dancers", DancersOf(project)}, {"apart", Number(project.apart())}};
 }
 
 }  // namespace choreo::studio

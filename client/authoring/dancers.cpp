@@ -113,9 +113,8 @@ void FaceEachOther(const json& list, const std::string& name, std::vector<Dancer
 
 }  // namespace
 
-Dancers ParseDancers(const std::string& text, const std::string& name,
+Dancers ParseDancers(const json& file, const std::string& name,
                      const std::filesystem::path& folder) {
-  const json file = ParseJson(text, name);
   const json& list = ListIn(file, name, "dancers");
   // A project has these members and others (project_file.h).
   if (!file.contains("studio")) {
@@ -146,7 +145,8 @@ Dancers ParseDancers(const std::string& text, const std::string& name,
 }
 
 Dancers ReadDancers(const std::filesystem::path& path) {
-  return ParseDancers(ReadText(path, "file of dancers"), path.string(), path.parent_path());
+  const std::string name = path.string();
+  return ParseDancers(ParseJson(ReadText(path, "file of dancers"), name), name, path.parent_path());
 }
 
 }  // namespace choreo::authoring

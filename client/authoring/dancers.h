@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <filesystem>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -34,10 +35,10 @@ struct Dancers {
   double apart = 0;  ///< least distance between two bodies, metres
 };
 
-/// Reads dancers from the JSON of a dancers' file or of a project (project_file.h). Paths of key
+/// Reads dancers from a parsed dancers' file or project (project_file.h). Paths of key
 /// files are relative to `folder`. Throws Error(kInvalidArgument) whose field is
 /// NAME:dancers[i].MEMBER, naming value and limit.
-Dancers ParseDancers(const std::string& text, const std::string& name,
+Dancers ParseDancers(const nlohmann::json& file, const std::string& name,
                      const std::filesystem::path& folder);
 /// Reads dancers from a file. Throws as ParseDancers does, and Error(kNotFound) if the file does
 /// not exist.

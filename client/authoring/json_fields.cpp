@@ -119,7 +119,8 @@ std::string Shown(const json& value) {
 }
 
 double JsonNumber(const json& value, const std::string& field) {
-  if (!value.is_number()) throw InvalidArgument(field, Shown(value) + " is not a number");
+  if (!value.is_number() || !std::isfinite(value.get<double>()))
+    throw InvalidArgument(field, Shown(value) + " is not a number");
   return value.get<double>();
 }
 

@@ -158,7 +158,11 @@ std::vector<KeyPose> Holding(KeyPose* key, double seconds, const std::string& fi
 std::vector<KeyPose> ParseKeyFile(std::string_view text, const std::string& name,
                                   const Skeleton& skeleton, std::vector<std::string>* places,
                                   const Counts& counts) {
-  const json file = ParseJson(text, name);
+  return KeysIn(ParseJson(text, name), name, skeleton, places, counts);
+}
+
+std::vector<KeyPose> KeysIn(const json& file, const std::string& name, const Skeleton& skeleton,
+                            std::vector<std::string>* places, const Counts& counts) {
   const json& list = ListIn(file, name, "keyframes");
   std::vector<KeyPose> keys;
   std::set<std::string> ids;
@@ -207,8 +211,8 @@ std::filesystem::path FileOf(const std::string& source) {
 std::vector<KeyPose> ReadKeys(const std::string& source, const Skeleton& skeleton,
                               std::vector<std::string>* places, const Counts& counts) {
   if (source.starts_with('{')) {
-    const std::string name = ParseJson(source, "keyframes").value("name", "keyframes");
-    return ParseKeyFile(source, name, skeleton, places, counts);
+    const json file = ParseJson(source, "keyframes");
+    return KeysIn(file, file.value("name", "keyframes"), skeleton, places, counts);
   }
   const std::string file = FileOf(source);
   const bool chooses = file.size() < source.size();

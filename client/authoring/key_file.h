@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -39,6 +40,10 @@ std::vector<client::KeyPose> ParseKeyFile(std::string_view text, const std::stri
                                           const Skeleton& skeleton,
                                           std::vector<std::string>* places = nullptr,
                                           const Counts& counts = {});
+/// Reads the keys of a parsed file.
+std::vector<client::KeyPose> KeysIn(const nlohmann::json& file, const std::string& name,
+                                    const Skeleton& skeleton, std::vector<std::string>* places,
+                                    const Counts& counts);
 
 /// Returns keys that hold the pose of `key` for `seconds`, so close together that the dancer only
 /// settles between them. Uses the key's time, not its frame. Sets the key's hit to kUsualHit, in

@@ -242,10 +242,10 @@ TEST_F(DancersTest, RefuseImpossibleRequests) {
 
 TEST(FormationTest, DancersFaceThoseWhomTheyName) {
   const auto read = [](const std::string& ben) {
-    return authoring::ParseDancers(R"({"dancers": [{"id": "ada", "place": [0, 1], "facing": "ben"},
-                                   {"id": "ben", "place": [2, 1], "facing": )" +
-                                       ben + "}]}",
-                                   "d.json", "");
+    const std::string text = R"({"dancers": [{"id": "ada", "place": [0, 1], "facing": "ben"},
+                                {"id": "ben", "place": [2, 1], "facing": )" +
+                             ben + "}]}";
+    return authoring::ParseDancers(nlohmann::json::parse(text), "d.json", "");
   };
   const authoring::Dancers both = read("\"ada\"");
   EXPECT_NEAR(both.dancers[0].facing, 90, 1e-9);
