@@ -43,13 +43,13 @@ PageSession::~PageSession() {
   worker_.join();
 }
 
-void PageSession::Take(Request request) {
+void PageSession::Receive(Request request) {
   const uint32_t call = request.call();
   Reap();
   try {
     if (request.has_dance()) return StartDance(call, request.dance());
-    if (request.has_live()) return TakeLive(call, request.live());
-    if (request.has_live_beats()) return TakeLiveBeats(call, request.live_beats());
+    if (request.has_live()) return ReceiveLive(call, request.live());
+    if (request.has_live_beats()) return ReceiveLiveBeats(call, request.live_beats());
     if (request.has_cancel()) return EndDance(call);
   } catch (const std::exception& error) {
     EndDance(call);
@@ -62,7 +62,7 @@ void PageSession::Take(Request request) {
   changed_.notify_one();
 }
 
-void PageSession::TakeLive(uint32_t call, const v1::StreamDanceRequest& request) {
+void PageSession::ReceiveLive(uint32_t call, const v1::StreamDanceRequest& request) {
   const auto found = dances_.find(call);
   if (found == dances_.end()) return;  // ended; the page may not know yet
   if (!found->second.ear) throw InvalidArgument("live", "is for dances to live music");
@@ -81,7 +81,7 @@ void PageSession::TakeLive(uint32_t call, const v1::StreamDanceRequest& request)
     case v1::StreamDanceRequest::kKeyframesComplete:
       return dance.CompleteKeys();
     case v1::StreamDanceRequest::kAudio:
-      return TakeMusic(&found->second, request.audio());
+      return ReceiveMusic(&found->second, request.audio());
     case v1::StreamDanceRequest::kEndOfAudio:
       return dance.EndAudio();
     default:
@@ -89,7 +89,7 @@ void PageSession::TakeLive(uint32_t call, const v1::StreamDanceRequest& request)
   }
 }
 
-void PageSession::TakeMusic(Dancing* dancing, const v1::Audio& audio) {
+void PageSession::ReceiveMusic(Dancing* dancing, const v1::Audio& audio) {
   const std::vector<float> samples = SamplesOf(audio);
   // Others are refused below.
   const bool is_sound =
@@ -106,7 +106,7 @@ void PageSession::TakeMusic(Dancing* dancing, const v1::Audio& audio) {
   dancing->dance->SendSamples(samples);
 }
 
-void PageSession::TakeLiveBeats(uint32_t call, const LiveBeats& beats) {
+void PageSession::ReceiveLiveBeats(uint32_t call, const LiveBeats& beats) {
   const live::LiveBeatHint hint = FromProto(beats);
   const auto found = dances_.find(call);
   if (found != dances_.end() && found->second.ear) found->second.ear->SetHint(hint);
@@ -230,7 +230,7 @@ void PageSession::Do(const Request& request) {
   const uint32_t call = request.call();
   switch (request.request_case()) {
     case Request::kSong:
-      return TakeSong(call, request.song());
+      return ReceiveSong(call, request.song());
     case Request::kCompose:
       return Answer(call, ComposeKeys(context_, song().get(), request.compose()));
     case Request::kExport:
@@ -252,7 +252,7 @@ void PageSession::Do(const Request& request) {
   }
 }
 
-void PageSession::TakeSong(uint32_t call, const File& file) {
+void PageSession::ReceiveSong(uint32_t call, const File& file) {
   std::shared_ptr<const Song> heard = HearSongOf(context_, file);
   Response response;
   *response.mutable_song() = heard->heard;

@@ -30,7 +30,7 @@ class PageSession {
 
   /// Only forwards the request, but ending a dance waits until its reader has stopped. Call from
   /// one thread.
-  void Take(Request request);
+  void Receive(Request request);
 
  private:
   /// A dance in progress, and the thread that reads its frames.
@@ -42,10 +42,10 @@ class PageSession {
     std::jthread reader;                  // last: uses the others
   };
 
-  void TakeLive(uint32_t call, const v1::StreamDanceRequest& request);
+  void ReceiveLive(uint32_t call, const v1::StreamDanceRequest& request);
   /// Sends a live dance its music, after the beats and repeats predicted from it.
-  void TakeMusic(Dancing* dancing, const v1::Audio& audio);
-  void TakeLiveBeats(uint32_t call, const LiveBeats& beats);
+  void ReceiveMusic(Dancing* dancing, const v1::Audio& audio);
+  void ReceiveLiveBeats(uint32_t call, const LiveBeats& beats);
   void StartDance(uint32_t call, const Dance& request);
   /// Sends warnings, at the keys' frames, about poses that human bodies cannot reach.
   void SendFaults(uint32_t call, const std::vector<client::KeyPose>& keys);
@@ -56,7 +56,7 @@ class PageSession {
   /// Runs the calls that are handled in order.
   void Work();
   void Do(const Request& request);
-  void TakeSong(uint32_t call, const File& file);
+  void ReceiveSong(uint32_t call, const File& file);
 
   std::shared_ptr<const Song> song() const;
   void Answer(uint32_t call, Response response);
@@ -64,7 +64,7 @@ class PageSession {
 
   const StudioContext& context_;
   const Send send_;
-  std::map<uint32_t, Dancing> dances_;  // used by the thread of Take
+  std::map<uint32_t, Dancing> dances_;  // used by the thread of Receive
 
   mutable std::mutex mutex_;
   std::mutex sending_;

@@ -37,8 +37,8 @@ std::string FromBase64(const std::string& text, const std::string& field) {
   return out;
 }
 
-/// Takes a project's song, if any, out of `file`.
-std::optional<Song> TakeSong(json* file, const std::string& name, double most_seconds) {
+/// Moves a project's song, if any, out of `file`.
+std::optional<Song> ExtractSong(json* file, const std::string& name, double most_seconds) {
   const std::string field = std::string(kUnnamed) + ":song_data";
   if (!file->contains("song_data")) {
     if (name.empty()) return std::nullopt;
@@ -145,7 +145,7 @@ ProjectCalls::Reply ProjectCalls::Danced(const std::string& text, bool as_bvh) c
   const client::ModelDescription& model = context_.model();
   json file = authoring::ParseJson(text, kUnnamed);
   const authoring::Project project = authoring::ParseProject(file, kUnnamed);
-  const std::optional<Song> song = TakeSong(&file, project.song, context_.most_seconds());
+  const std::optional<Song> song = ExtractSong(&file, project.song, context_.most_seconds());
   if (!song && !project.seconds)
     throw InvalidArgument(std::string(kUnnamed) + ":seconds", "is missing, and there is no song");
   // An answer must fit into memory.

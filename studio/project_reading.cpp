@@ -41,19 +41,19 @@ void CheckKeys(const authoring::DanceKeys& keys, double fps, const Skeleton& ske
   authoring::RefuseHeldInAir(keys, fps, skeleton);
 }
 
-void TellKeys(authoring::DanceKeys keys, const StudioContext& context,
-              RepeatedPtrField<ProjectKey>* said) {
+void AddKeys(authoring::DanceKeys keys, const StudioContext& context,
+             RepeatedPtrField<ProjectKey>* out) {
   const double fps = context.model().fps;
   keys = authoring::ByTime(std::move(keys), fps);
   CheckKeys(keys, fps, context.model().skeleton);
   for (size_t i = 0; i < keys.poses.size(); ++i) {
     const int64_t frame = authoring::FrameOf(keys.poses[i], fps);
     if (authoring::IsHeld(keys.places[i])) {
-      ProjectKey& held = said->at(said->size() - 1);
+      ProjectKey& held = out->at(out->size() - 1);
       held.set_hold(frame - held.key().frame());
       continue;
     }
-    ProjectKey* key = said->Add();
+    ProjectKey* key = out->Add();
     *key->mutable_key() = client::ToProto(keys.poses[i]);
     key->mutable_key()->set_frame(frame);
   }
@@ -68,9 +68,9 @@ void Keep(const RepeatedPtrField<File>& files, const ScratchFolder& folder) {
 }
 
 /// A dancer's own keys, from these files or the dancer's own text.
-void TellOwnKeys(const authoring::Dancer& dancer, const ScratchFolder& folder,
-                 const StudioContext& context, const authoring::Counts& counts, StageDancer* said) {
-  said->set_has_keys(!dancer.keyframes.empty());
+void AddOwnKeys(const authoring::Dancer& dancer, const ScratchFolder& folder,
+                const StudioContext& context, const authoring::Counts& counts, StageDancer* out) {
+  out->set_has_keys(!dancer.keyframes.empty());
   for (const std::string& source : authoring::KeySources(dancer.keyframes)) {
     const bool is_text = source.starts_with('{');
     const std::string kept =
@@ -82,7 +82,7 @@ void TellOwnKeys(const authoring::Dancer& dancer, const ScratchFolder& folder,
     try {
       authoring::DanceKeys keys;
       keys.poses = authoring::ReadKeys(kept, context.model().skeleton, &keys.places, counts);
-      TellKeys(std::move(keys), context, said->mutable_keys());
+      AddKeys(std::move(keys), context, out->mutable_keys());
     } catch (const Error& error) {
       std::string message = error.what();
       const std::string path = folder.path().string() + "/";
@@ -100,41 +100,41 @@ uint64_t ForPage(uint64_t seed, const std::string& field) {
                                    ", the largest that the studio knows");
 }
 
-void TellDancers(const ProjectFile& request, const nlohmann::json& file,
-                 const StudioContext& context, const authoring::Counts& counts, Project* said) {
+void AddDancers(const ProjectFile& request, const nlohmann::json& file,
+                const StudioContext& context, const authoring::Counts& counts, Project* out) {
   const ScratchFolder folder;
   Keep(request.key_files(), folder);
   const authoring::Dancers stage = authoring::ParseDancers(file, request.file().name(), "");
-  said->set_apart(stage.apart);
+  out->set_apart(stage.apart);
   for (const authoring::Dancer& dancer : stage.dancers) {
-    const std::string field = At(request.file().name() + ":dancers", said->dancers_size());
-    StageDancer* told = said->add_dancers();
-    told->set_id(dancer.id);
-    told->set_x(dancer.place.x());
-    told->set_z(dancer.place.y());
-    told->set_facing(dancer.facing);
-    told->set_mirrored(dancer.mirrored);
-    told->set_after(dancer.after ? dancer.after->amount : 0);
-    told->set_in_counts(dancer.after && dancer.after->counts);
-    if (dancer.seed) told->set_seed(ForPage(*dancer.seed, field + ".seed"));
-    told->set_style(dancer.style);
-    TellOwnKeys(dancer, folder, context, counts, told);
+    const std::string field = At(request.file().name() + ":dancers", out->dancers_size());
+    StageDancer* added = out->add_dancers();
+    added->set_id(dancer.id);
+    added->set_x(dancer.place.x());
+    added->set_z(dancer.place.y());
+    added->set_facing(dancer.facing);
+    added->set_mirrored(dancer.mirrored);
+    added->set_after(dancer.after ? dancer.after->amount : 0);
+    added->set_in_counts(dancer.after && dancer.after->counts);
+    if (dancer.seed) added->set_seed(ForPage(*dancer.seed, field + ".seed"));
+    added->set_style(dancer.style);
+    AddOwnKeys(dancer, folder, context, counts, added);
   }
 }
 
 /// Reads a project, except for keys and dancers.
-void Tell(const authoring::Project& read, const std::string& name, const StudioContext& context,
-          const authoring::Counts& counts, Project* said) {
-  said->set_song(read.song);
-  if (read.seconds) said->set_seconds(*read.seconds);
-  if (read.seed) said->set_seed(ForPage(*read.seed, name + ":seed"));
-  said->set_style(read.style);
-  if (read.music_dynamics) said->set_music_dynamics(*read.music_dynamics);
-  if (read.variation) said->set_variation(*read.variation);
+void AddSettings(const authoring::Project& read, const std::string& name,
+                 const StudioContext& context, const authoring::Counts& counts, Project* out) {
+  out->set_song(read.song);
+  if (read.seconds) out->set_seconds(*read.seconds);
+  if (read.seed) out->set_seed(ForPage(*read.seed, name + ":seed"));
+  out->set_style(read.style);
+  if (read.music_dynamics) out->set_music_dynamics(*read.music_dynamics);
+  if (read.variation) out->set_variation(*read.variation);
   if (!read.beats.empty()) {
-    said->mutable_beats()->set_bar(static_cast<uint32_t>(read.bar));
-    said->mutable_beats()->mutable_times()->Add(read.beats.begin(), read.beats.end());
-    said->mutable_beats()->mutable_counts()->Add(read.counts.begin(), read.counts.end());
+    out->mutable_beats()->set_bar(static_cast<uint32_t>(read.bar));
+    out->mutable_beats()->mutable_times()->Add(read.beats.begin(), read.beats.end());
+    out->mutable_beats()->mutable_counts()->Add(read.counts.begin(), read.counts.end());
   }
   const ControlRequest controls = read.controls.Read(context.model(), context.server(), counts);
   if (controls.root_path && !controls.root_path->heights.empty()) {
@@ -146,11 +146,11 @@ void Tell(const authoring::Project& read, const std::string& name, const StudioC
     throw InvalidArgument(read.controls.PlaceOf("velocity_factors", ""),
                           "changes, or is in metres: the studio's are factors of all the dance");
   }
-  *said->mutable_controls() = wire::ToProto(controls);
+  *out->mutable_controls() = wire::ToProto(controls);
   for (const authoring::Marker& marker : read.markers) {
-    Marker* told = said->add_markers();
-    told->set_frame(std::llround(marker.time_s * context.model().fps));
-    told->set_name(marker.name);
+    Marker* added = out->add_markers();
+    added->set_frame(std::llround(marker.time_s * context.model().fps));
+    added->set_name(marker.name);
   }
 }
 
@@ -162,19 +162,19 @@ Response ReadProject(const StudioContext& context, const ProjectFile& request) {
   const bool is_project = file.is_object() && file.contains("studio");
   authoring::Counts counts = CountsIn(request);
   Response response;
-  Project* said = response.mutable_project();
+  Project* out = response.mutable_project();
   authoring::Project read;
   if (is_project) {
     read = authoring::ParseProject(file, name);
     if (!read.beats.empty()) counts = authoring::CountsFrom(read.beats, read.ones);
-    Tell(read, name, context, counts, said);
+    AddSettings(read, name, context, counts, out);
   }
   if (read.has_keys || !is_project) {
     authoring::DanceKeys keys;
     keys.poses = authoring::KeysIn(file, name, context.model().skeleton, &keys.places, counts);
-    TellKeys(std::move(keys), context, said->mutable_keys());
+    AddKeys(std::move(keys), context, out->mutable_keys());
   }
-  if (read.has_dancers) TellDancers(request, file, context, counts, said);
+  if (read.has_dancers) AddDancers(request, file, context, counts, out);
   return response;
 }
 

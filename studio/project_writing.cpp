@@ -48,11 +48,11 @@ ordered_json Seconds(int64_t frame, double fps) {
 ordered_json KeysOf(const RepeatedPtrField<ProjectKey>& keys, const StudioContext& context) {
   const double fps = context.model().fps;
   ordered_json list = ordered_json::array();
-  for (const ProjectKey& said : keys) {
-    const v1::Keyframe& key = said.key();
+  for (const ProjectKey& item : keys) {
+    const v1::Keyframe& key = item.key();
     ordered_json& written = list.emplace_back();
     written = {{"id", key.id()}, {"time", Seconds(key.frame(), fps)}};
-    if (said.hold() != 0) written["hold"] = Seconds(said.hold(), fps);
+    if (item.hold() != 0) written["hold"] = Seconds(item.hold(), fps);
     if (key.has_hit()) written["hit"] = Number(key.hit());
     if (const auto hands = wire::FromProto(key.hands()))
       written["hands"] = kHandPoseNames[static_cast<size_t>(*hands)];
@@ -74,18 +74,18 @@ ordered_json KeysOf(const RepeatedPtrField<ProjectKey>& keys, const StudioContex
 
 ordered_json DancersOf(const Project& project) {
   ordered_json dancers = ordered_json::array();
-  for (const StageDancer& said : project.dancers()) {
+  for (const StageDancer& item : project.dancers()) {
     ordered_json& dancer = dancers.emplace_back();
-    dancer = {{"id", said.id()},
-              {"place", ordered_json::array({Number(said.x()), Number(said.z())})}};
-    if (said.facing() != 0) dancer["facing"] = Number(said.facing());
-    if (said.mirrored()) dancer["mirrored"] = true;
-    if (said.after() != 0) {
-      const ordered_json after = Number(said.after());
-      dancer["after"] = said.in_counts() ? ordered_json(after.dump() + " counts") : after;
+    dancer = {{"id", item.id()},
+              {"place", ordered_json::array({Number(item.x()), Number(item.z())})}};
+    if (item.facing() != 0) dancer["facing"] = Number(item.facing());
+    if (item.mirrored()) dancer["mirrored"] = true;
+    if (item.after() != 0) {
+      const ordered_json after = Number(item.after());
+      dancer["after"] = item.in_counts() ? ordered_json(after.dump() + " counts") : after;
     }
-    if (said.has_seed()) dancer["seed"] = said.seed();
-    if (!said.style().empty()) dancer["style"] = said.style();
+    if (item.has_seed()) dancer["seed"] = item.seed();
+    if (!item.style().empty()) dancer["style"] = item.style();
   }
   return dancers;
 }
@@ -120,10 +120,10 @@ ordered_json ProjectJson(const StudioContext& context, const Project& project) {
   if (project.dancers_size() > 0) {
     ordered_json& dancers = file["dancers"] = DancersOf(project);
     for (int i = 0; i < project.dancers_size(); ++i) {
-      const StageDancer& said = project.dancers(i);
-      if (!said.has_keys()) continue;
+      const StageDancer& item = project.dancers(i);
+      if (!item.has_keys()) continue;
       ordered_json& own = dancers[static_cast<size_t>(i)]["keyframes"];
-      own = said.keys().empty() ? ordered_json(authoring::kNoKeys) : KeysOf(said.keys(), context);
+      own = item.keys().empty() ? ordered_json(authoring::kNoKeys) : KeysOf(item.keys(), context);
     }
     file["apart"] = Number(project.apart());
   }

@@ -54,7 +54,7 @@ void Socket::Read() {
     const bool good = request.ParseFromArray(bytes.data(), static_cast<int>(bytes.size()));
     self->received_.consume(bytes.size());
     if (!good) return self->Close();
-    self->session_->Take(std::move(request));
+    self->session_->Receive(std::move(request));
     self->Read();
   });
 }

@@ -78,7 +78,7 @@ void RequireApart(const DanceKeys& keys, double fps) {
 
 }  // namespace
 
-bool SaysNoKeys(const std::vector<std::string>& sources) {
+bool IsNoKeys(const std::vector<std::string>& sources) {
   const bool none = std::ranges::find(sources, kNoKeys) != sources.end();
   if (none && sources.size() > 1)
     throw InvalidArgument("keyframes", "none stands beside " + sources[sources[0] == kNoKeys]);
@@ -86,7 +86,7 @@ bool SaysNoKeys(const std::vector<std::string>& sources) {
 }
 
 std::vector<std::string> KeySources(const std::vector<std::string>& sources) {
-  return SaysNoKeys(sources) ? std::vector<std::string>{} : sources;
+  return IsNoKeys(sources) ? std::vector<std::string>{} : sources;
 }
 
 std::string DescribeAfterEnd(int64_t frame, const DanceLength& length) {

@@ -13,7 +13,7 @@ namespace choreo::authoring {
 inline constexpr const char* kNoKeys = "none";
 /// Whether `sources` request a dance without keys. Throws Error(kInvalidArgument) if they also name
 /// other sources.
-bool SaysNoKeys(const std::vector<std::string>& sources);
+bool IsNoKeys(const std::vector<std::string>& sources);
 /// Returns the key files and motions among the sources of --keyframes.
 std::vector<std::string> KeySources(const std::vector<std::string>& sources);
 

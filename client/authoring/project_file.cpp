@@ -41,7 +41,7 @@ bool IsCount(const json& value) {
 
 /// Reads beats, [[0.52, 1], [1.02, 2], ...]: seconds and counts. Counts may continue over several
 /// bars.
-void TakeBeats(const json& list, const std::string& field, Project* project) {
+void ReadBeats(const json& list, const std::string& field, Project* project) {
   if (!list.is_array()) throw InvalidArgument(field, Shown(list) + " is no list");
   std::vector<double>& out = project->beats;
   for (const json& beat : list) {
@@ -87,7 +87,7 @@ json FactorsIn(const json& parts, const std::string& field) {
   return as_usual ? json() : out;
 }
 
-void TakeControls(const json& file, const std::string& name, std::span<const ControlRow> rows,
+void ReadControls(const json& file, const std::string& name, std::span<const ControlRow> rows,
                   WrittenControls* controls) {
   const auto take = [controls](std::string_view control, const json& value,
                                const std::string& field) {
@@ -194,8 +194,8 @@ Project ParseProject(const json& file, const std::string& name, std::span<const 
                                              std::to_string(kMaxBeatsInBar));
   }
   project.bar = file.value("bar", kDefaultBar);
-  if (file.contains("beats")) TakeBeats(file["beats"], name + ":beats", &project);
-  TakeControls(file, name, rows, &project.controls);
+  if (file.contains("beats")) ReadBeats(file["beats"], name + ":beats", &project);
+  ReadControls(file, name, rows, &project.controls);
   if (file.contains("markers")) project.markers = MarkersIn(file["markers"], name + ":markers");
   project.has_dancers = file.contains("dancers");
   return project;

@@ -43,9 +43,9 @@ bool IsWithinLimits(double value, bool speeds) {
 }
 
 /// Collects the requested values, part by part.
-class Asked {
+class RequestedVelocities {
  public:
-  Asked(double fps, const Counts& counts) : fps_(fps), counts_(counts) {}
+  RequestedVelocities(double fps, const Counts& counts) : fps_(fps), counts_(counts) {}
 
   void Add(const ControlRequest::VelocityFactors& whole) {
     frames_ = whole.frames;
@@ -167,17 +167,17 @@ ControlRequest::VelocityFactors ReadVelocities(const std::vector<std::string>& s
                                                const std::string& reference, double fps,
                                                const Counts& counts,
                                                const ControlRequest::VelocityFactors& usual) {
-  Asked asked(fps, counts);
+  RequestedVelocities requested(fps, counts);
   const bool has_points = !usual.frames.empty() && std::ranges::any_of(sources, IsVelocityFile);
-  if (usual.IsWhole() && !has_points) asked.Add(usual);
+  if (usual.IsWhole() && !has_points) requested.Add(usual);
   for (const std::string& source : sources) {
     if (IsVelocityFile(source)) {
-      asked.AddFile(source);
+      requested.AddFile(source);
     } else {
-      asked.AddConstant(source);
+      requested.AddConstant(source);
     }
   }
-  return asked.Finish(reference.empty() ? usual.reference : reference);
+  return requested.Finish(reference.empty() ? usual.reference : reference);
 }
 
 }  // namespace choreo::authoring

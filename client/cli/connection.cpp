@@ -90,14 +90,14 @@ struct Connection::Failures {
   explicit Failures(double seconds) : retry_s(seconds) {}
 
   /// Prints a note for each loss of a server, once.
-  void Take(const std::string& address, const Error& failure) {
+  void Note(const std::string& address, const Error& failure) {
     // The error itself reports a server that was never reached.
     if (!reached) return;
     const std::lock_guard lock(mutex);
     latest = failure;
     // Retries are at most seconds apart; later failures are another loss.
-    const Clock::time_point before = std::exchange(told[address], Clock::now());
-    if (told[address] - before <= kOfOneLoss) return;
+    const Clock::time_point before = std::exchange(noted[address], Clock::now());
+    if (noted[address] - before <= kOfOneLoss) return;
     std::cerr << "note: " << failure.Of(address).what() << "; servers are asked again for up to "
               << Rounded(retry_s) << " s\n";
   }
@@ -105,8 +105,8 @@ struct Connection::Failures {
   const double retry_s;
   std::atomic<bool> reached = false;
   std::mutex mutex;
-  std::optional<Error> latest;                    // lock: mutex
-  std::map<std::string, Clock::time_point> told;  // by address; lock: mutex
+  std::optional<Error> latest;                     // lock: mutex
+  std::map<std::string, Clock::time_point> noted;  // by address; lock: mutex
 };
 
 Connection::Connection(const ServerOptions& options, const std::optional<std::string>& model) {
@@ -130,7 +130,7 @@ Connection::Connection(const ServerOptions& options, const std::optional<std::st
   failures_ = std::make_shared<Failures>(client_options.retry_s);
   client_options.retried = [failures = failures_](const std::string& address,
                                                   const Error& failure) {
-    failures->Take(address, failure);
+    failures->Note(address, failure);
   };
   client_ = std::make_unique<client::Client>(client_options);
   try {

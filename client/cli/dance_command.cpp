@@ -24,7 +24,7 @@ namespace choreo::cli {
 namespace {
 
 /// Fills in settings that the command line leaves open from the project.
-void TakeProject(DanceOptions* options) {
+void FillFromProject(DanceOptions* options) {
   const authoring::Project project = authoring::ReadProject(options->project);
   options->keys = {project.has_keys ? options->project : authoring::kNoKeys};
   if (options->song.empty() && !project.song.empty()) {
@@ -193,9 +193,9 @@ void AddDanceCommand(CLI::App& program) {
   options->server.AddInexactResume(*command);
   options->server.AddTo(*command);
   command->callback([options, command] {
-    if (!options->project.empty()) TakeProject(options.get());
+    if (!options->project.empty()) FillFromProject(options.get());
     CheckSongStart(*command, options->song);
-    const bool keys = !options->keys.empty() && !authoring::SaysNoKeys(options->keys);
+    const bool keys = !options->keys.empty() && !authoring::IsNoKeys(options->keys);
     if (options->song.empty() && !options->seconds && !keys &&
         !options->controls.IsOption(kRootPath)) {
       throw CLI::RequiredError("A song, or else --keyframes, --path or --seconds");

@@ -17,7 +17,7 @@ void DanceDisplay::operator()(const client::Message& message) {
   } else if (const auto* key = std::get_if<client::KeyReached>(&message)) {
     bar_->Advance(0, key->id);
   } else if (const auto* warning = std::get_if<client::Warning>(&message)) {
-    bar_->Print(Told(*warning, {model_fps_}));
+    bar_->Print(Describe(*warning, {model_fps_}));
   } else if (const auto* rejected = std::get_if<client::KeyRejected>(&message)) {
     bar_->Print("warning: key " + rejected->id + " was refused: " + rejected->reason);
   } else if (const auto* resumed = std::get_if<client::Resumed>(&message)) {

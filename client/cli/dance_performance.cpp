@@ -60,7 +60,7 @@ authoring::DanceKeys ChooseKeys(const DanceOptions& options,
                                 const std::optional<authoring::Music>& music, double seconds,
                                 const authoring::DanceLength& length,
                                 const client::ModelDescription& model) {
-  if (authoring::SaysNoKeys(options.keys)) return {};
+  if (authoring::IsNoKeys(options.keys)) return {};
   if (!options.keys.empty()) {
     if (length.frames < 1) {
       std::ostringstream message;
@@ -130,7 +130,7 @@ client::DanceResult Dance(const client::Client& client, const client::DanceConfi
         [&](const client::Message& message) {
           Interruption::Check();
           display(message);
-          if (show) show->Take(message);
+          if (show) show->Add(message);
         },
         &dance);
   } catch (const Error& error) {
@@ -149,18 +149,18 @@ client::DanceResult Dance(const client::Client& client, const client::DanceConfi
   return dance;
 }
 
-Asked AskedFor(const DanceOptions& options, const client::Header& header,
-               const client::DanceConfig& config) {
-  Asked asked{DanceManner::Of(config), header.model, header.seed};
-  asked.controls = config.controls;
-  if (options.song.empty() || options.song == "-") return asked;
-  asked.song = options.song;
-  asked.song_start_s = options.song_start_s;
+DanceSettings SettingsFor(const DanceOptions& options, const client::Header& header,
+                          const client::DanceConfig& config) {
+  DanceSettings settings{DanceManner::Of(config), header.model, header.seed};
+  settings.controls = config.controls;
+  if (options.song.empty() || options.song == "-") return settings;
+  settings.song = options.song;
+  settings.song_start_s = options.song_start_s;
   if (!options.project_beats.empty() || options.beats != authoring::BeatOptions()) {
-    asked.beats = config.music_beats;
-    asked.downbeats = config.music_downbeats;
+    settings.beats = config.music_beats;
+    settings.downbeats = config.music_downbeats;
   }
-  return asked;
+  return settings;
 }
 
 }  // namespace
@@ -218,7 +218,7 @@ Performance Perform(const PlannedDance& plan, const Connection& connection,
                                     out, *show ? &**show : nullptr);
   WrittenDance written = Examine(dance.header, dance.report, dance.motion, keys.poses);
   MarkHolds(keys, &written);
-  written.asked = AskedFor(options, dance.header, config);
+  written.settings = SettingsFor(options, dance.header, config);
   written.warnings = faults;
   written.warnings.insert(written.warnings.end(), dance.warnings.begin(), dance.warnings.end());
   written.beat_hit_chance = BeatHitChance(config.music_beats, length.frames, length.fps);

@@ -10,7 +10,7 @@
 
 #include "client/authoring/json_fields.h"
 #include "client/authoring/key_file.h"
-#include "client/cli/asked_controls.h"
+#include "client/cli/report_controls.h"
 #include "model/core/error.h"
 #include "model/core/json_limits.h"
 #include "model/core/nearest.h"
@@ -30,18 +30,18 @@ constexpr std::pair<const char*, double client::KeyReached::*> kFigures[] = {
     {"final_error_deg", &client::KeyReached::final_error_deg},
     {"max_acceleration", &client::KeyReached::max_acceleration}};
 
-template <typename Report, typename AskedFor, typename Visit>
-void VisitMembers(Report& report, AskedFor& asked, const Visit& visit) {
-  visit(report, "model", asked.model);
-  visit(report, "seed", asked.seed);
-  visit(report, "temperature", asked.temperature);
-  visit(report, "music_dynamics", asked.music_dynamics);
-  visit(report, "variation", asked.variation);
-  visit(report, "style", asked.style);
-  visit(report, "song", asked.song);
-  visit(report, "song_start", asked.song_start_s);
-  visit(report, "music_beats", asked.beats);
-  visit(report, "music_downbeats", asked.downbeats);
+template <typename Report, typename Settings, typename Visit>
+void VisitMembers(Report& report, Settings& settings, const Visit& visit) {
+  visit(report, "model", settings.model);
+  visit(report, "seed", settings.seed);
+  visit(report, "temperature", settings.temperature);
+  visit(report, "music_dynamics", settings.music_dynamics);
+  visit(report, "variation", settings.variation);
+  visit(report, "style", settings.style);
+  visit(report, "song", settings.song);
+  visit(report, "song_start", settings.song_start_s);
+  visit(report, "music_beats", settings.beats);
+  visit(report, "music_downbeats", settings.downbeats);
 }
 
 struct MemberWriter {
@@ -171,8 +171,8 @@ void DanceReport::WriteTo(ordered_json* json) const {
   if (frames) (*json)["frames"] = *frames;
   (*json)["fps"] = fps;
   (*json)[kSketch] = sketch;
-  VisitMembers(*json, asked, MemberWriter());
-  WriteControls(asked.controls, json);
+  VisitMembers(*json, settings, MemberWriter());
+  WriteControls(settings.controls, json);
   ordered_json& written = (*json)["keyframes"] = ordered_json::array();
   for (const auto& [frame, key] : keys) written.push_back(KeyJson(key));
   ordered_json& warned = (*json)["warnings"] = ordered_json::array();
@@ -205,8 +205,8 @@ DanceReport ReadReport(const std::filesystem::path& path) {
       throw InvalidArgument(name + ":" + kSketch, "is not a list of numbers");
     report.sketch = value[kSketch].get<MotionSketch>();
   }
-  VisitMembers(value, report.asked, read);
-  report.asked.controls = ReadControls(value, name);
+  VisitMembers(value, report.settings, read);
+  report.settings.controls = ReadControls(value, name);
   for (size_t i = 0; i < value["keyframes"].size(); ++i) {
     ReportKey key = ReadKey(value["keyframes"][i], at("keyframes", i));
     report.keys.insert_or_assign(key.frame, std::move(key));

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "client/authoring/counts.h"
-#include "client/cli/asked.h"
+#include "client/cli/dance_settings.h"
 #include "client/cli/motion_sketch.h"
 #include "client/dance_messages.h"
 #include "model/core/grid.h"
@@ -41,7 +41,7 @@ struct DanceReport {
   std::optional<int64_t> frames = {};  ///< at the model's rate; old reports lack it
   double fps = kModelFps;              ///< of the model
   MotionSketch sketch = {};            ///< with which edits recognise the dance; may be empty
-  Asked asked = {};
+  DanceSettings settings = {};
   ReportKeys keys = {};
   std::vector<client::Warning> warnings = {};
 

@@ -326,7 +326,7 @@ void AddEditCommand(CLI::App& program) {
       ->required();
   options->server.AddTo(*command);
   command->callback([options, command] {
-    TakeReport(command->count("--song-start") > 0, options.get());
+    FillFromReport(command->count("--song-start") > 0, options.get());
     CheckSongStart(*command, options->song);
     Run(*options);
   });

@@ -8,9 +8,9 @@
 #include <type_traits>
 #include <utility>
 
-#include "client/cli/asked_controls.h"
 #include "client/cli/options.h"
 #include "client/cli/report.h"
+#include "client/cli/report_controls.h"
 #include "model/core/atomic_file.h"
 #include "model/core/joined.h"
 #include "model/core/rounded.h"
@@ -29,25 +29,26 @@ std::optional<authoring::Music> ReadSong(const EditOptions& options, double end_
 authoring::Counts CountsOf(const EditOptions& options,
                            const std::optional<authoring::Music>& music) {
   if (!music) return {};
-  if (!options.asked.beats.empty())
-    return authoring::CountsFrom(options.asked.beats, options.asked.downbeats);
+  if (!options.settings.beats.empty())
+    return authoring::CountsFrom(options.settings.beats, options.settings.downbeats);
   return authoring::CountsOf(*music);
 }
 
 /// Sets the beats from the report that the options do not replace.
-void TakeBeats(bool says_start, EditOptions* options) {
-  Asked& asked = options->asked;
+void FillBeats(bool says_start, EditOptions* options) {
+  DanceSettings& settings = options->settings;
   const BeatHint& hint = options->beats.hint;
   if (options->beats.beats || hint.tempo_bpm || options->song.empty() || says_start)
-    asked.beats.clear();
-  if (asked.beats.empty()) return;
+    settings.beats.clear();
+  if (settings.beats.empty()) return;
   if (hint.half_time || hint.double_time) {
     throw InvalidArgument(hint.half_time ? "--half-time" : "--double-time",
                           options->report +
                               " has the beats that were danced to, maybe changed so; "
                               "say of which beats: --beats auto, or --beats FILE");
   }
-  authoring::ChangeBeats(options->beats, options->song_start_s, &asked.beats, &asked.downbeats);
+  authoring::ChangeBeats(options->beats, options->song_start_s, &settings.beats,
+                         &settings.downbeats);
 }
 
 /// Whether a dance of `frames` at `fps` has the file's number of frames at the file's rate. Its
@@ -58,7 +59,7 @@ bool IsShortenedTo(const Motion& file, int64_t frames, double fps) {
 }
 
 /// Fills in controls from the report that the command line does not give and the model supports.
-void TakeControls(const ControlRequest& known, const client::ModelDescription& model,
+void FillControls(const ControlRequest& known, const client::ModelDescription& model,
                   ControlRequest* controls) {
   const auto take = [&](size_t row, const auto& from, auto& to) {
     if (!from || to) return;
@@ -86,7 +87,7 @@ DanceChange ChangeOf(const EditOptions& options) {
 
 }  // namespace
 
-void TakeReport(bool says_start, EditOptions* options) {
+void FillFromReport(bool says_start, EditOptions* options) {
   std::vector<std::string> taken;
   const auto take = [&](const char* name, const auto& from, auto* to, const std::string& shown) {
     if (from == std::remove_cvref_t<decltype(from)>()) return;
@@ -95,34 +96,34 @@ void TakeReport(bool says_start, EditOptions* options) {
     taken.push_back(std::string(name) + " " + shown);
   };
   const auto number = [](const auto& value) { return value ? InFull(*value) : std::string(); };
-  Asked& asked = options->asked;
+  DanceSettings& settings = options->settings;
   if (!options->report.empty()) options->known = ReadReport(options->report);
-  asked = options->known.asked;
-  if (asked.TakeSong(options->report, says_start, "new frames do not follow the music",
-                     &options->song, &options->song_start_s)) {
+  settings = options->known.settings;
+  if (settings.FillSong(options->report, says_start, "new frames do not follow the music",
+                        &options->song, &options->song_start_s)) {
     taken.push_back("song " + options->song);
   }
-  TakeBeats(says_start, options);
-  take("model", asked.model, &options->model, asked.model);
+  FillBeats(says_start, options);
+  take("model", settings.model, &options->model, settings.model);
   options->changed = ChangeOf(*options);
   // Another take needs another seed, unless other settings change.
   if (!options->retakes.empty() && options->changed == DanceChange::kNothing) {
-    options->seed = asked.seed.value_or(0) + 1;
+    options->seed = settings.seed.value_or(0) + 1;
     std::cerr << "note: takes are danced with seed " << *options->seed
               << "; another --seed gives others\n";
   }
-  take("seed", asked.seed, &options->seed, std::to_string(asked.seed.value_or(0)));
-  take("temperature", asked.temperature, &options->temperature, number(asked.temperature));
-  take("music dynamics", asked.music_dynamics, &options->music_dynamics,
-       number(asked.music_dynamics));
-  take("variation", asked.variation, &options->variation, number(asked.variation));
-  take("style", asked.style, &options->style, asked.style);
+  take("seed", settings.seed, &options->seed, std::to_string(settings.seed.value_or(0)));
+  take("temperature", settings.temperature, &options->temperature, number(settings.temperature));
+  take("music dynamics", settings.music_dynamics, &options->music_dynamics,
+       number(settings.music_dynamics));
+  take("variation", settings.variation, &options->variation, number(settings.variation));
+  take("style", settings.style, &options->style, settings.style);
   ControlRequest::VisitControls(
       [&](size_t row, const auto& control) {
         if (control && !options->controls.IsOption(row))
           taken.push_back("the " + MemberOf(kControls[row]));
       },
-      asked.controls);
+      settings.controls);
   if (!taken.empty()) {
     std::cerr << "note: as " << options->report << " says: " << Joined(taken, std::identity())
               << '\n';
@@ -174,9 +175,9 @@ std::tuple<client::EditOptions, authoring::Counts> HowToDance(const EditOptions&
     edit.music_id = music->id;
   }
   edit.controls = options.controls.Read(edit.model, connection.server(), counts);
-  TakeControls(options.asked.controls, edit.model, &edit.controls);
-  if (edit.style != options.asked.style) NoteStyle(edit.model, edit.style);
-  NoteDeterministic(edit.model, {{"--seed", options.seed != options.asked.seed},
+  FillControls(options.settings.controls, edit.model, &edit.controls);
+  if (edit.style != options.settings.style) NoteStyle(edit.model, edit.style);
+  NoteDeterministic(edit.model, {{"--seed", options.seed != options.settings.seed},
                                  {"--temperature", edit.temperature.value_or(0) != 0}});
   return {std::move(edit), counts};
 }

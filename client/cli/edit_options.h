@@ -10,9 +10,9 @@
 
 #include "client/authoring/music.h"
 #include "client/authoring/written_controls.h"
-#include "client/cli/asked.h"
 #include "client/cli/connection.h"
 #include "client/cli/dance_report.h"
+#include "client/cli/dance_settings.h"
 #include "client/edit.h"
 
 namespace choreo::cli {
@@ -52,7 +52,7 @@ struct EditOptions : DanceManner {
   std::string model;
   std::string out;
 
-  DanceChange changed = DanceChange::kNothing;  ///< before the report is read (TakeReport)
+  DanceChange changed = DanceChange::kNothing;  ///< before the report is read (FillFromReport)
 
   // Edits of projects (edit_markers.h).
   std::vector<std::pair<std::string, std::string>> marks;  ///< names and times
@@ -64,13 +64,13 @@ struct EditOptions : DanceManner {
   std::string join, join_report;
   std::optional<double> gap_s;
 
-  DanceReport known;  ///< the dance's report, if any (TakeReport)
-  Asked asked;        ///< its request, without the beats that the options replace
+  DanceReport known;       ///< the dance's report, if any (FillFromReport)
+  DanceSettings settings;  ///< its request, without the beats that the options replace
 };
 
 /// Fills in settings that the command line does not give from the report, and prints notes about
 /// that. `says_start`: whether the command line gives the song's start.
-void TakeReport(bool says_start, EditOptions* options);
+void FillFromReport(bool says_start, EditOptions* options);
 
 /// All times on the command line, with their options.
 std::vector<std::pair<const char*, std::string>> TimesOf(const EditOptions& options);

@@ -30,21 +30,21 @@ void EditSession::Retake(double from_s, double until_s) {
               << kLeastTake << " s nothing much can change\n";
   }
   DanceAnew("take of " + Rounded(Seconds(first)) + " to " + Rounded(Seconds(to)) + " s", from, to);
-  known_.asked.seed = edit_.seed;  // the next take has the next seed
+  known_.settings.seed = edit_.seed;  // the next take has the next seed
 }
 
 void EditSession::DanceOtherwise() {
   const auto& path = edit_.controls.root_path;
   const bool begins_later = options_.changed == DanceChange::kPath && path->frames.front() > 0;
   DanceAnew("danced anew", begins_later ? path->frames.front() : -1, frames_);
-  Asked& asked = known_.asked;
-  static_cast<DanceManner&>(asked) = edit_;
-  asked.seed = edit_.seed;
+  DanceSettings& settings = known_.settings;
+  static_cast<DanceManner&>(settings) = edit_;
+  settings.seed = edit_.seed;
   ControlRequest::VisitControls(
       [&](size_t row, auto& known, const auto& changed) {
         if (options_.controls.IsOption(row)) known = changed;
       },
-      asked.controls, edit_.controls);
+      settings.controls, edit_.controls);
 }
 
 void EditSession::DanceAnew(const std::string& what, int64_t from, int64_t to) {
@@ -63,9 +63,9 @@ void EditSession::DanceAnew(const std::string& what, int64_t from, int64_t to) {
   Refresh(from, to);
   FollowPath(from, to);
   const bool is_all = from < 0 && to == frames_;
-  Take(is_all ? client::DanceAllAnew(client_, dance_, edit_, gap.keys)
-              : client::DanceAnew(client_, dance_, edit_, gap),
-       what);
+  Apply(is_all ? client::DanceAllAnew(client_, dance_, edit_, gap.keys)
+               : client::DanceAnew(client_, dance_, edit_, gap),
+        what);
   for (const auto& [frame, key] : before) {
     ReportKey& anew = keys_.at(frame);
     anew.holds = key.holds;

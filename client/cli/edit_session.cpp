@@ -49,7 +49,7 @@ EditSession::EditSession(const EditOptions& options, const Connection& connectio
   const int64_t end = frames_ + (options.loop ? LoopFrames().added : 0);
   std::tie(edit_, counts_) = HowToDance(options, connection, Seconds(end));
   path_ = edit_.controls.root_path;
-  told_ = {edit_.model.fps, UsesCounts(options) ? counts_ : authoring::Counts()};
+  times_ = {edit_.model.fps, UsesCounts(options) ? counts_ : authoring::Counts()};
   options.controls.RequireBegun(edit_.controls, {frames_, edit_.model.fps});
   CheckKeys();
 }
@@ -169,7 +169,7 @@ std::vector<client::Warning> EditSession::FitHold(client::KeyEdit* edit) {
       .frame = next->first,
       .message = authoring::DescribeHoldEnd(edit->key.id, LastFrame(*edit), was, IdAt(next->first),
                                             next->first, edit_.model.fps)};
-  ShowWarnings({warning}, told_);
+  ShowWarnings({warning}, times_);
   return {warning};
 }
 
@@ -187,7 +187,7 @@ std::vector<client::Warning> EditSession::EndHold(int64_t frame, const std::stri
       .message = authoring::DescribeHoldEnd(IdAt(held->first), std::prev(dropped)->first,
                                             last->first, id, frame, edit_.model.fps)};
   Forget(dropped, std::next(last));
-  ShowWarnings({warning}, told_);
+  ShowWarnings({warning}, times_);
   return {warning};
 }
 
@@ -213,7 +213,7 @@ void EditSession::MakeWay(int64_t first, int64_t last, const std::string& id) {
 }
 
 void EditSession::NoteWay(int64_t frame, const std::string& what) const {
-  std::cerr << "note: key \"" << IdAt(frame) << "\" at " << told_.Of(frame) << " makes way for "
+  std::cerr << "note: key \"" << IdAt(frame) << "\" at " << times_.Of(frame) << " makes way for "
             << what << '\n';
 }
 
@@ -236,7 +236,7 @@ void EditSession::Set(const char* field, double at_s, client::KeyEdit edit) {
   Refresh(edit.from, edit.to);
   WarnOfFaults(edit);
   FollowPath(edit.from, edit.to);
-  Take(client::SetKey(client_, dance_, edit_, edit), "key " + edit.key.id);
+  Apply(client::SetKey(client_, dance_, edit_, edit), "key " + edit.key.id);
   keys_[*edit.key.frame].hit = edit.key.hit;
   keys_[*edit.key.frame].hands = edit.key.hands;
   for (const client::KeyPose& held : edit.held) {
@@ -260,7 +260,7 @@ void EditSession::Free(const std::vector<int64_t>& frames, const std::string& wh
   }
   Refresh(gap.from, gap.to);
   FollowPath(gap.from, gap.to);
-  Take(client::DanceAnew(client_, dance_, edit_, gap), what);
+  Apply(client::DanceAnew(client_, dance_, edit_, gap), what);
 }
 
 void EditSession::WarnOfFaults(const client::KeyEdit& edit) {
@@ -271,7 +271,7 @@ void EditSession::WarnOfFaults(const client::KeyEdit& edit) {
                       Seconds(frame), PoseAt(dance_.motion, Seconds(frame))});
   }
   const auto faults = authoring::KeyFaults(edit.key, edit_.model.fps, edit_.model.skeleton, around);
-  ShowWarnings(faults, told_);
+  ShowWarnings(faults, times_);
   Keep(faults);
 }
 
@@ -286,7 +286,7 @@ EditSession::Loop EditSession::LoopFrames() const {
 void EditSession::CloseLoop() {
   const auto [from, added] = LoopFrames();
   for (auto key = keys_.upper_bound(from); key != keys_.end(); key = keys_.erase(key)) {
-    std::cerr << "warning: key " << key->second.id << " at " << told_.Of(key->first)
+    std::cerr << "warning: key " << key->second.id << " at " << times_.Of(key->first)
               << " makes way for the loop\n";
   }
   if (added > 0) {
@@ -296,7 +296,7 @@ void EditSession::CloseLoop() {
   Refresh(from, frames_);
   frames_ += added;
   FollowPath(frames_, frames_);  // the way back leaves it
-  Take(client::CloseLoop(client_, dance_, edit_, from, added), "loop");
+  Apply(client::CloseLoop(client_, dance_, edit_, from, added), "loop");
 }
 
 void EditSession::Write() const {
@@ -314,7 +314,7 @@ void EditSession::CheckKeys() const {
     const auto [same, is_new] = sources.emplace(Frame(at_s), options_.keys[i]);
     if (!is_new) {
       throw InvalidArgument("--key", same->second + " and " + options_.keys[i] + " both ask for " +
-                                         told_.Of(same->first));
+                                         times_.Of(same->first));
     }
     if (same != sources.begin()) CheckDistance("--at", at_s, std::prev(same)->first, "the key");
     if (std::next(same) != sources.end())
@@ -411,8 +411,8 @@ void EditSession::FollowPath(int64_t from, int64_t to) {
   edit_.controls.root_path = leads ? path_ : std::nullopt;
 }
 
-void EditSession::Take(client::EditedDance edited, const std::string& what) {
-  ShowWarnings(edited.warnings, told_);
+void EditSession::Apply(client::EditedDance edited, const std::string& what) {
+  ShowWarnings(edited.warnings, times_);
   Keep(edited.warnings);
   dance_ = std::move(edited.dance);
   std::cout << what << ": frames " << edited.first_changed << " to " << edited.end_changed - 1
@@ -420,7 +420,7 @@ void EditSession::Take(client::EditedDance edited, const std::string& what) {
   for (const client::KeyReached& key : edited.keys) {
     keys_[key.frame] = {key};
     if (&key != &edited.keys.front()) continue;  // a held pose needs only one figure
-    std::cout << "; hit at " << told_.Of(key.frame) << " within "
+    std::cout << "; hit at " << times_.Of(key.frame) << " within "
               << Rounded(1000 * key.final_error_m) << " mm and " << Rounded(key.final_error_deg)
               << " degrees";
   }

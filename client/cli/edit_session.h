@@ -11,7 +11,7 @@
 #include "client/authoring/counts.h"
 #include "client/cli/connection.h"
 #include "client/cli/edit_options.h"
-#include "client/cli/told_times.h"
+#include "client/cli/time_format.h"
 #include "client/edit.h"
 #include "model/motion/canonical.h"
 
@@ -141,7 +141,7 @@ class EditSession {
   /// loop also if the first frame changes. These frames are no longer stale.
   void Refresh(int64_t from, int64_t to);
   void Keep(const std::vector<client::Warning>& warnings);
-  void Take(client::EditedDance edited, const std::string& what);
+  void Apply(client::EditedDance edited, const std::string& what);
   /// Follows the report's path in an edit between two frames, if it leads there.
   void FollowPath(int64_t from, int64_t to);
 
@@ -150,7 +150,7 @@ class EditSession {
   client::EditOptions edit_;
   std::optional<ControlRequest::RootPath> path_;  // of the whole dance
   authoring::Counts counts_;                      // of the song
-  ToldTimes told_;
+  TimeFormat times_;
   int64_t longest_ = 0;
   client::FinishedDance dance_;
   int64_t frames_ = 0;  // at the model's rate

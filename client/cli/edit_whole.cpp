@@ -5,9 +5,9 @@
 #include <regex>
 
 #include "client/arrange.h"
-#include "client/cli/asked_controls.h"
 #include "client/cli/dance_file.h"
 #include "client/cli/report.h"
+#include "client/cli/report_controls.h"
 #include "model/core/limits.h"
 #include "model/core/rounded.h"
 #include "model/formats/motion_file.h"
@@ -65,7 +65,7 @@ class Whole {
     const int64_t by = std::llround(start_s * known_.fps);
     std::erase_if(known_.keys, [&](const auto& key) { return key.first < by; });
     Shift(-by);
-    known_.asked = known_.asked.From(start_s, known_.fps);
+    known_.settings = known_.settings.From(start_s, known_.fps);
     std::erase_if(known_.keys, [&](const auto& key) { return key.first >= Frames(); });
     std::erase_if(known_.warnings, [&](const client::Warning& warning) {
       return warning.frame < 0 || warning.frame >= Frames();
@@ -74,7 +74,7 @@ class Whole {
 
   void Mirror() {
     dance_ = client::Mirrored(skeleton_, dance_);
-    known_.asked.controls = cli::Mirrored(std::move(known_.asked.controls));
+    known_.settings.controls = cli::Mirrored(std::move(known_.settings.controls));
     static const std::regex kSide("left_|right_");
     for (client::Warning& warning : known_.warnings) {
       std::string message;

@@ -131,19 +131,19 @@ std::string Say(const live::LiveFigures& figures) {
   return line.str();
 }
 
-Asked AskedFor(const LiveCommand& options, const live::LiveDance& live) {
+DanceSettings SettingsFor(const LiveCommand& options, const live::LiveDance& live) {
   const client::Header& header = live.header();
-  Asked asked{{options}, header.model, header.seed, options.song, options.song_start_s};
-  if (options.song.empty() || options.beats == authoring::BeatOptions()) return asked;
+  DanceSettings settings{{options}, header.model, header.seed, options.song, options.song_start_s};
+  if (options.song.empty() || options.beats == authoring::BeatOptions()) return settings;
   // Edits count like `analyze` with these options.
   client::DanceConfig config;
   const double seconds = Duration(live.motion());
   authoring::ConfigureMusic(
       authoring::ReadMusic(options.song, seconds, options.song_start_s, options.beats), seconds,
       &config);
-  asked.beats = config.music_beats;
-  asked.downbeats = config.music_downbeats;
-  return asked;
+  settings.beats = config.music_beats;
+  settings.downbeats = config.music_downbeats;
+  return settings;
 }
 
 void Run(const LiveCommand& options) {
@@ -213,7 +213,7 @@ void Run(const LiveCommand& options) {
       std::cout << options.out << '\n';
     }
     if (options.report.empty()) return;
-    WriteFile(options.report, ReportJson(Examine(live, keys, AskedFor(options, live))));
+    WriteFile(options.report, ReportJson(Examine(live, keys, SettingsFor(options, live))));
     std::cout << options.report << '\n';
   };
   try {

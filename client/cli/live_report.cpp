@@ -20,7 +20,8 @@ client::Report CutOff(const live::LiveDance& live) {
 
 }  // namespace
 
-WrittenDance Examine(const live::LiveDance& live, const authoring::DanceKeys& keys, Asked asked) {
+WrittenDance Examine(const live::LiveDance& live, const authoring::DanceKeys& keys,
+                     DanceSettings settings) {
   WrittenDance written = Examine(live.header(), live.report() ? *live.report() : CutOff(live),
                                  live.motion(), live.DancedKeys());
   written.is_complete = live.report().has_value();
@@ -31,11 +32,11 @@ WrittenDance Examine(const live::LiveDance& live, const authoring::DanceKeys& ke
     if (beat.downbeat) downbeats.push_back(beat.time_s);
   }
   written.beat_hit_chance = BeatHitChance(beats, written.figures.frames, written.fps);
-  if (asked.song.empty()) {
-    asked.beats = std::move(beats);
-    asked.downbeats = std::move(downbeats);
+  if (settings.song.empty()) {
+    settings.beats = std::move(beats);
+    settings.downbeats = std::move(downbeats);
   }
-  written.asked = std::move(asked);
+  written.settings = std::move(settings);
   written.warnings = keys.warnings;
   written.warnings.insert(written.warnings.end(), live.warnings().begin(), live.warnings().end());
   return written;

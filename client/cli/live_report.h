@@ -6,8 +6,9 @@
 
 namespace choreo::cli {
 
-/// Examines the received part of a live dance. `keys`: those known from the beginning. `asked`: the
-/// request; sets its beats to those that were danced to, unless its song's file gives them.
-WrittenDance Examine(const live::LiveDance& live, const authoring::DanceKeys& keys, Asked asked);
+/// Examines the received part of a live dance. `keys`: those known from the beginning. `settings`:
+/// the request; sets its beats to those that were danced to, unless its song's file gives them.
+WrittenDance Examine(const live::LiveDance& live, const authoring::DanceKeys& keys,
+                     DanceSettings settings);
 
 }  // namespace choreo::cli

@@ -9,7 +9,7 @@
 
 #include "client/authoring/counts.h"
 #include "client/authoring/json_fields.h"
-#include "client/cli/asked.h"
+#include "client/cli/dance_settings.h"
 #include "model/core/hand_pose.h"
 #include "model/core/hit.h"
 #include "model/core/limits.h"

@@ -9,8 +9,8 @@
 #include "client/authoring/counts.h"
 #include "client/authoring/motion_input.h"
 #include "client/authoring/music.h"
-#include "client/cli/asked.h"
 #include "client/cli/commands.h"
+#include "client/cli/dance_settings.h"
 #include "client/cli/interruption.h"
 #include "client/cli/options.h"
 #include "client/cli/output_file.h"
@@ -52,11 +52,11 @@ struct DrawnKey {
 
 /// Fills in the song and its start from the report, and prints a note. `says_start`: whether the
 /// command line gives the song's start.
-void TakeSong(bool says_start, const Asked& asked, RenderOptions* options) {
+void FillSong(bool says_start, const DanceSettings& settings, RenderOptions* options) {
   double& start_s = options->film.format.song_start_s;
   const double said_s = start_s;
-  const bool takes =
-      asked.TakeSong(options->report, says_start, "the film is silent", &options->song, &start_s);
+  const bool takes = settings.FillSong(options->report, says_start, "the film is silent",
+                                       &options->song, &start_s);
   if (takes || start_s != said_s) {
     std::cerr << "note: as " << options->report << " says: song " << options->song << " from "
               << InFull(start_s) << " s\n";
@@ -64,24 +64,25 @@ void TakeSong(bool says_start, const Asked& asked, RenderOptions* options) {
 }
 
 /// The counts of the report, of its song, or of the named song; none if no time is in counts.
-authoring::Counts CountsFor(const RenderOptions& options, const Asked& asked) {
+authoring::Counts CountsFor(const RenderOptions& options, const DanceSettings& settings) {
   const auto in_counts = [](const std::string& time) {
     return !time.empty() && authoring::ParseTime(time, "time").counts;
   };
   if (!in_counts(options.from) && !in_counts(options.until)) return {};
   std::string song = options.song;
   double start_s = options.film.format.song_start_s;
-  if (!asked.beats.empty()) return authoring::CountsFrom(asked.beats, asked.downbeats);
-  asked.TakeSong(options.report, !song.empty(), "there are no counts", &song, &start_s);
+  if (!settings.beats.empty()) return authoring::CountsFrom(settings.beats, settings.downbeats);
+  settings.FillSong(options.report, !song.empty(), "there are no counts", &song, &start_s);
   if (song.empty()) return {};
   return authoring::CountsOf(
       authoring::ReadMusic(song, std::numeric_limits<double>::infinity(), start_s));
 }
 
 /// Keeps only the part between --from and --until, with its keys and its part of the song.
-void Cut(const Asked& asked, RenderOptions* options, Stage* stage, std::vector<DrawnKey>* keys) {
+void Cut(const DanceSettings& settings, RenderOptions* options, Stage* stage,
+         std::vector<DrawnKey>* keys) {
   if (options->from.empty() && options->until.empty()) return;
-  const authoring::Counts counts = CountsFor(*options, asked);
+  const authoring::Counts counts = CountsFor(*options, settings);
   const auto second = [&](const char* option, const std::string& time) {
     return authoring::ParseTime(time, option).In(counts, option);
   };
@@ -186,7 +187,7 @@ void Run(RenderOptions options, const DanceReport& report) {
   std::vector<DrawnKey> keys;
   for (const auto& [frame, key] : report.keys)
     keys.push_back({static_cast<double>(frame) / report.fps, !key.holds.empty()});
-  Cut(report.asked, &options, &stage, &keys);
+  Cut(report.settings, &options, &stage, &keys);
   if (!options.out.empty()) DrawSheet(options, stage, keys);
   Interruption::Check();
   if (!options.video.empty()) DrawFilm(options, stage, keys);
@@ -252,7 +253,7 @@ void AddRenderCommand(CLI::App& program) {
     const DanceReport report =
         options->report.empty() ? DanceReport() : ReadReport(options->report);
     if (!options->video.empty())
-      TakeSong(command->count("--song-start") > 0, report.asked, options.get());
+      FillSong(command->count("--song-start") > 0, report.settings, options.get());
     CheckSongStart(*command, options->song);
     Run(*options, report);
   });

@@ -63,7 +63,7 @@ std::string KeysText(const WrittenDance& dance) {
              "\non the way to a key the model's frames are bent towards it: a joint by %.1f cm at "
              "most, to \"%s\" at %s; %.1f cm on average were left to the keys\n",
              100 * furthest->correction_m, furthest->id.c_str(),
-             ToldTimes{dance.header.model_fps}.Of(furthest->frame).c_str(), 100 * raw);
+             TimeFormat{dance.header.model_fps}.Of(furthest->frame).c_str(), 100 * raw);
 }
 
 }  // namespace
@@ -101,13 +101,13 @@ std::string ReportJson(const WrittenDance& dance) {
   return json.dump(2) + "\n";
 }
 
-std::string Told(const client::Warning& warning, const ToldTimes& times) {
+std::string Describe(const client::Warning& warning, const TimeFormat& times) {
   return "warning: " + times.Of(warning.frame) + " (frame " + std::to_string(warning.frame) +
          "): " + warning.message;
 }
 
-void ShowWarnings(const std::vector<client::Warning>& warnings, const ToldTimes& times) {
-  for (const client::Warning& warning : warnings) std::cerr << Told(warning, times) << '\n';
+void ShowWarnings(const std::vector<client::Warning>& warnings, const TimeFormat& times) {
+  for (const client::Warning& warning : warnings) std::cerr << Describe(warning, times) << '\n';
 }
 
 std::string ReportText(const WrittenDance& dance) {

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "client/cli/told_times.h"
+#include "client/cli/time_format.h"
 #include "client/cli/written_dance.h"
 
 namespace choreo::cli {
@@ -18,8 +18,8 @@ namespace choreo::cli {
 std::string ReportJson(const WrittenDance& dance);
 
 /// Prints warnings on stderr for people, one per line.
-void ShowWarnings(const std::vector<client::Warning>& warnings, const ToldTimes& times);
-std::string Told(const client::Warning& warning, const ToldTimes& times);
+void ShowWarnings(const std::vector<client::Warning>& warnings, const TimeFormat& times);
+std::string Describe(const client::Warning& warning, const TimeFormat& times);
 
 /// Summarises a report in a few lines for people.
 std::string ReportText(const WrittenDance& dance);

@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "client/authoring/formation.h"
-#include "client/cli/asked_controls.h"
 #include "client/cli/report.h"
+#include "client/cli/report_controls.h"
 #include "model/core/atomic_file.h"
 #include "model/core/rounded.h"
 #include "model/formats/gltf.h"
@@ -189,8 +189,8 @@ void DanceTogether(const DanceOptions& options, const authoring::Dancers& stage,
   for (size_t i = 0; i < reports.size(); ++i) {
     WrittenDance written = Later(shared[dance_of[i]].performance.written, delays[i]);
     const Eigen::Vector3d apart = dances[i].motion.frames.front().root_position - places[i];
-    written.asked.controls =
-        OnStage(std::move(written.asked.controls), stage.dancers[i], delays[i], apart);
+    written.settings.controls =
+        OnStage(std::move(written.settings.controls), stage.dancers[i], delays[i], apart);
     written.sketch = SketchOf(dances[i].motion, written.figures.frames, written.fps);
     WriteFile(reports[i], ReportJson(written));
   }

@@ -4,7 +4,7 @@
 
 namespace choreo::cli {
 
-void VmcShow::Take(const client::Message& message) {
+void VmcShow::Add(const client::Message& message) {
   if (const auto* header = std::get_if<client::Header>(&message)) fps_ = header->fps;
   const auto* block = std::get_if<client::FrameBlock>(&message);
   if (!block) return;

@@ -17,8 +17,8 @@ class VmcShow {
   /// Throws as VmcSender does.
   VmcShow(const std::string& address, const Skeleton& skeleton) : sender_(address, skeleton) {}
 
-  /// Takes each message of the dance, in order.
-  void Take(const client::Message& message);
+  /// Adds the next message of the dance.
+  void Add(const client::Message& message);
   /// Whether the last received frame has been sent. Waits a moment if not.
   bool Over() { return !player_ || player_->Shown(); }
 

@@ -8,7 +8,7 @@
 #include <fstream>
 
 #include "client/authoring/project_file.h"
-#include "client/cli/asked_controls.h"
+#include "client/cli/report_controls.h"
 #include "client/cli/authoring_options.h"
 #include "model/dance/controls/control_track.h"
 #include "model/dance/dance_score.h"

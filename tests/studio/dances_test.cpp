@@ -66,7 +66,7 @@ TEST_F(StudioTest, AnswersAFailureOfADancesThread) {
   });
   Request dance = DanceRequest(10, 1);
   dance.set_call(2);
-  session.Take(dance);
+  session.Receive(dance);
   EXPECT_EQ(answered.get_future().get(), "the page is gone");
 }
 

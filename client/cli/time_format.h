@@ -9,7 +9,7 @@
 namespace choreo::cli {
 
 /// Formats moments of a dance for users, in the units that they use.
-struct ToldTimes {
+struct TimeFormat {
   double fps = kModelFps;         ///< the model's
   authoring::Counts counts = {};  ///< of the song; empty: only seconds
 

@@ -1,18 +1,18 @@
-#include "client/cli/told_times.h"
+#include "client/cli/time_format.h"
 
 #include <gtest/gtest.h>
 
 /// Messages give times in the unit that the user has used.
-namespace choreo::cli::told_times_test {
+namespace choreo::cli::time_format_test {
 
-TEST(ToldTimes, AreSecondsOrCounts) {
-  const ToldTimes seconds{30};
+TEST(TimeFormat, SaysSecondsOrCounts) {
+  const TimeFormat seconds{30};
   EXPECT_EQ(seconds.Of(126), "4.2 s");
-  const ToldTimes counts{30, authoring::CountsFrom({0.31, 0.81, 1.31}, {})};
+  const TimeFormat counts{30, authoring::CountsFrom({0.31, 0.81, 1.31}, {})};
   EXPECT_EQ(counts.Of(9), "1c, 0.3 s");
   EXPECT_EQ(counts.Of(54), "4c, 1.8 s");
   EXPECT_EQ(counts.Of(32), "2.5c, 1.07 s");
   EXPECT_EQ(counts.Of(38), "2.91c, 1.27 s");
 }
 
-}  // namespace choreo::cli::told_times_test
+}  // namespace choreo::cli::time_format_test

@@ -1,4 +1,4 @@
-#include "client/cli/told_times.h"
+#include "client/cli/time_format.h"
 
 #include <cmath>
 
@@ -6,7 +6,7 @@
 
 namespace choreo::cli {
 
-std::string ToldTimes::Of(int64_t frame) const {
+std::string TimeFormat::Of(int64_t frame) const {
   const double second = static_cast<double>(frame) / fps;
   const std::string told = Rounded(second) + " s";
   if (counts.beats.size() < 2) return told;

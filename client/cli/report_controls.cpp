@@ -1,4 +1,4 @@
-#include "client/cli/asked_controls.h"
+#include "client/cli/report_controls.h"
 
 namespace choreo::cli {
 

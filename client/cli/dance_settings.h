@@ -16,7 +16,7 @@ inline constexpr const char* kNoSong = "none";
 
 /// What the user requested for a dance, except its keys. The dance's report states it for later
 /// edits.
-struct Asked : DanceManner {
+struct DanceSettings : DanceManner {
   std::string model = {};
   std::optional<uint64_t> seed = {};
   std::string song = {};  ///< the file's name as given
@@ -25,15 +25,15 @@ struct Asked : DanceManner {
   std::vector<double> beats = {}, downbeats = {};
   ControlRequest controls = {};
 
-  /// Sets a command's song `to` this request's, unless the command line names one, and `start_s` to
-  /// this song's start, unless the command line gives it (`says_start`). Looks for the file in the
-  /// working directory and beside `report`, the report with this request. `without`: the effect of
-  /// a missing song, for a note. Returns whether it set the song.
-  bool TakeSong(const std::filesystem::path& report, bool says_start, const std::string& without,
+  /// Sets a command's song `to` that of these settings, unless the command line names one, and
+  /// `start_s` to this song's start, unless the command line gives it (`says_start`). Looks for the
+  /// file in the working directory and beside `report`, the report with these settings. `without`:
+  /// the effect of a missing song, for a note. Returns whether it set the song.
+  bool FillSong(const std::filesystem::path& report, bool says_start, const std::string& without,
                 std::string* to, double* start_s) const;
 
-  /// The request for the part of the dance from this second on. `fps`: the model's.
-  Asked From(double seconds, double fps) const;
+  /// The settings for the part of the dance from this second on. `fps`: the model's.
+  DanceSettings From(double seconds, double fps) const;
 };
 
 }  // namespace choreo::cli

@@ -1,9 +1,9 @@
-#include "client/cli/asked.h"
+#include "client/cli/dance_settings.h"
 
 #include <cmath>
 #include <iostream>
 
-#include "client/cli/asked_controls.h"
+#include "client/cli/report_controls.h"
 
 namespace choreo::cli {
 namespace {
@@ -21,8 +21,8 @@ std::string FindSong(const std::string& song, const std::filesystem::path& repor
 
 }  // namespace
 
-bool Asked::TakeSong(const std::filesystem::path& report, bool says_start,
-                     const std::string& without, std::string* to, double* start_s) const {
+bool DanceSettings::FillSong(const std::filesystem::path& report, bool says_start,
+                             const std::string& without, std::string* to, double* start_s) const {
   if (*to == kNoSong) {
     to->clear();
     return false;
@@ -43,8 +43,8 @@ bool Asked::TakeSong(const std::filesystem::path& report, bool says_start,
   return takes;
 }
 
-Asked Asked::From(double seconds, double fps) const {
-  Asked later = *this;
+DanceSettings DanceSettings::From(double seconds, double fps) const {
+  DanceSettings later = *this;
   later.controls = Delayed(controls, -std::llround(seconds * fps));
   if (!song.empty()) later.song_start_s += seconds;
   for (std::vector<double>* times : {&later.beats, &later.downbeats}) {
