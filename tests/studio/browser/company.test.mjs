@@ -16,8 +16,8 @@ await inStudio(async ({ page, until, settle, frames, give, download }) => {
     await settle();
     await until(() => window.choreo.formation.value?.of === window.choreo.moment.value);
     return page.evaluate(() => {
-      const { said, danceOf } = window.choreo.formation.value;
-      return { widened: said.widened, least: said.least, danceOf };
+      const { reply, danceOf } = window.choreo.formation.value;
+      return { widened: reply.widened, least: reply.least, danceOf };
     });
   };
   const type = async (name, value) => {
