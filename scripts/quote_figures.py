@@ -7,10 +7,10 @@ printed.json has the papers' own.
     scripts/quote_figures.py --print docs/papers.md     prints the tables of one page instead
 
 Two kinds of quotation, each up to <!-- end -->:
-    <!-- table: FILE TABLE | COLUMN | COLUMN ... -->    all rows of a table, and what is wanted of them (wanted.json); COLUMN=VALUE
+    <!-- table: FILE TABLE | COLUMN | COLUMN ... -->    the rows of a table with any figure, and what is wanted of them (wanted.json); COLUMN=VALUE
                                                         leaves only rows that have it, COLUMN~PART those that have a part
-                                                        like it, "wanted" those of which something is wanted; FILE+FILE has the
-                                                        methods of both
+                                                        like it, "wanted" those of which something is wanted; "plain" does
+                                                        not say what; FILE+FILE has the methods of both
     <!-- figure: FILE TABLE | ROW | COLUMN -->          one figure; ROW is the row's first column
 """
 import json
@@ -20,7 +20,7 @@ import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 FIGURES = ROOT / "docs/figures"
-PAGES = ("docs/results.md", "docs/weight.md", "docs/hearing.md", "docs/papers.md", "docs/papers_ablations.md",
+PAGES = ("docs/results.md", "docs/controls.md", "docs/weight.md", "docs/hearing.md", "docs/papers.md", "docs/papers_ablations.md",
          "docs/papers_ablations_c.md")
 WANTED = json.loads((FIGURES / "wanted.json").read_text())
 
@@ -59,15 +59,18 @@ def has(row, kept):
 
 def table(place, *columns):
     file, name = place.split()
-    wanted = WANTED.get(name, {})
+    wanted = {} if "plain" in columns else WANTED.get(name, {})
     filters = [column for column in columns if re.fullmatch(r"\w+[=~][\w ,]+", column)]
     only_wanted = "wanted" in columns
-    columns = [column for column in columns if column != "wanted" and column not in filters]
+    columns = [column for column in columns if column not in ("wanted", "plain", *filters)]
     lines = [columns + (["wanted"] if wanted else [])]
     for row in rows_of(file, name):
         if not all(has(row, kept) for kept in filters) or (only_wanted and row[columns[0]] not in wanted):
             continue
-        lines.append([cell(row, column) for column in columns] + ([wanted.get(row[columns[0]], "")] if wanted else []))
+        label, *cells = [cell(row, column) for column in columns]
+        if all(one == "–" for one in cells):
+            continue
+        lines.append([label, *cells] + ([wanted.get(row[columns[0]], "")] if wanted else []))
     lines.insert(1, ["---"] * len(lines[0]))
     return "\n\n" + "\n".join(f"| {' | '.join(line)} |" for line in lines) + "\n\n"
 

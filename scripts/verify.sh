@@ -17,7 +17,7 @@ scripts/quote_figures.py --check
 
 if [[ -n ${CHOREO_RECORDINGS:-} ]]; then
   echo "== The figures can be measured again"
-  pages=(docs/figures docs/results.md)
+  pages=(docs/figures docs/results.md docs/controls.md)
   # Uncommitted changes are no figures to compare with.
   git diff --exit-code --stat HEAD -- "${pages[@]}" || {
     echo "verify.sh: commit the pages above first, or take them back" >&2
