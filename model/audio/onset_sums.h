@@ -13,7 +13,8 @@ namespace choreo {
 /// 0 to 1.
 inline double Excess(double on, double even) { return on > even ? 1 - even / on : 0; }
 
-/// Sums onsets over frames and around beats.
+/// Sums the strengths of onsets (OnsetStrength) over frames and around beats; those outside the
+/// music count as 0. Immutable.
 class OnsetSums {
  public:
   static constexpr int64_t kBeatFrames = 4;  // of a beat: from one before it to two after it
@@ -21,7 +22,9 @@ class OnsetSums {
   explicit OnsetSums(std::span<const Onset> onsets) {
     for (const float strength : OnsetStrength(onsets)) sums_.push_back(sums_.back() + strength);
   }
+  /// The sum over the frames [from, to).
   double Between(int64_t from, int64_t to) const { return Before(to) - Before(from); }
+  /// The sum around a beat at `frame`.
   double OnBeat(int64_t frame) const { return Between(frame - 1, frame - 1 + kBeatFrames); }
   int64_t frames() const { return std::ssize(sums_) - 1; }
 
