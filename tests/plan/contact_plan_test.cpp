@@ -81,6 +81,7 @@ TEST(PlanContacts, HoveringBodyGetsContacts) {
 // floor.
 TEST(PlanContacts, ABodyOutOfBalanceDoesNotHop) {
   std::array<FootTrack, 2> feet = {Standing(0.1), Standing(-0.1)};
+  Lift(&feet[0], 28, 42, 0.3);
   for (FootTrack& foot : feet) {
     for (size_t i = 30; i < 40; ++i) foot.unbalanced[i] = 4;
   }
