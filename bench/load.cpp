@@ -30,6 +30,7 @@ using Clock = std::chrono::steady_clock;
 struct Options {
   std::string song;
   double seconds = 8;
+  std::optional<double> temperature;
   std::vector<int> streams = {1, 20, 50, 60, 200};
   std::vector<int> addresses = {1, 4};
   std::vector<std::string> tables = {"start", "chunks", "live",   "beside",
@@ -341,8 +342,9 @@ class Load {
   }
 
   int64_t DanceAtOnce(const client::Audio& song, int seed) {
-    const auto dance =
-        client_.StartDance({.seed = static_cast<uint64_t>(seed), .audio = song.format});
+    client::DanceConfig config{.seed = static_cast<uint64_t>(seed), .audio = song.format};
+    config.temperature = options_.temperature;
+    const auto dance = client_.StartDance(config);
     SendKeys(*dance, options_.seconds, 2);
     dance->SendSamples(song.samples);
     dance->EndAudio();
@@ -388,6 +390,8 @@ int main(int argc, char** argv) {
   program.add_option("--seconds", options.seconds, "Length of a dance.")
       ->check(choreo::cli::NumberFrom(2, choreo::kMaxAudioSeconds))
       ->capture_default_str();
+  program.add_option("--temperature", options.temperature,
+                     "Of the dances in the table closed. Default: the model's.");
   program.add_option("--streams", options.streams, "Real-time streams at once.")
       ->check(CLI::Range(1, 10000))
       ->capture_default_str();
