@@ -196,42 +196,40 @@ void AddAnalyzeCommand(CLI::App& program) {
   command
       ->add_option("song", options->song,
                    "WAV, FLAC, Ogg or MP3 file, or - for standard input; with ffmpeg installed, "
-                   "whatever that reads.")
+                   "any file that it reads.")
       ->required()
       ->check(SongFile());
   command
       ->add_option("--song-start", options->song_start_s,
-                   "Second of the song from which on it is heard; times count from there.")
+                   "Second of the song at which to begin; times count from there.")
       ->check(TimeInSeconds());
   command
-      ->add_option(
-          "--seconds", options->seconds,
-          "Show so much of the song, as a dance of this length hears it; keys are suggested within "
-          "it.")
+      ->add_option("--seconds", options->seconds,
+                   "Seconds of the song to show, as a dance of this length hears it. Keys are "
+                   "suggested within them.")
       ->check(AboveZero());
   AddBeatOptions(*command, &options->beats);
-  command->add_flag(
-      "--json", options->json,
-      "Print duration_s, sample_rate, tempo_bpm, beats (seconds), beats_in_bar, downbeats "
-      "(seconds), confidence (of each beat, 0 to 1: how much more begins on the beats around it "
-      "than elsewhere), without_beats (where none is heard), passages (that come back), energies "
-      "(of each half second), notes and, with --suggest-keys, suggested_keys and keyframes (a "
-      "file of keys) as JSON.");
+  command->add_flag("--json", options->json,
+                    "Print JSON: duration_s, sample_rate, tempo_bpm, beats (seconds), "
+                    "beats_in_bar, downbeats (seconds), confidence (of each beat, 0 to 1: how much "
+                    "more begins on the beats around it than elsewhere), without_beats (where none "
+                    "is heard), passages (that return), energies (of each half second), notes and, "
+                    "with --suggest-keys, suggested_keys and keyframes (a key file).");
   command->add_option("--features", options->features,
-                      "FILE.npy for the MFCC rows that the models hear: [rows, 40], 30 a second.");
+                      "FILE.npy to write the MFCC rows to, which the papers' models hear: [rows, "
+                      "40], 30 a second.");
   CLI::Option* suggest =
       command
           ->add_option(
               "--suggest-keys", options->suggest_keys,
-              "Name so many beats on which key poses would sit well, spread over the song from its "
-              "second 1 on, where passages begin, eights and bars, and a pose of the library for "
-              "each: the same where a passage returns. With --json they are a file for `choreo "
-              "dance --keyframes`.")
+              "Number of key poses to suggest: beats from second 1 on where passages, eights and "
+              "bars begin, with a pose of the library for each, the same where a passage returns. "
+              "With --json they are a file for `choreo dance --keyframes`.")
           ->check(WholeNumberFrom(1, 1'000'000));
   command
-      ->add_option("--from", options->from,
-                   "Second, or count (9c), from which on keys are suggested. The first downbeat is "
-                   "1c.")
+      ->add_option(
+          "--from", options->from,
+          "Second, or count (9c), from which keys are suggested. The first downbeat is 1c.")
       ->check(TimeOrCount())
       ->needs(suggest);
   command

@@ -11,21 +11,19 @@ namespace {
 
 std::string VelocityHelp() {
   return "How fast a part of the body moves: trunk, left_arm, right_arm, left_leg, right_leg, "
-         "arms, legs or all; left_arm=1.5 is a multiplier, 0 to " +
-         Rounded(kMaxVelocityFactor) + ", of the reference, left_arm=1.2cm a speed, 0 to " +
+         "arms, legs or all. left_arm=1.5 is a multiple, 0 to " +
+         Rounded(kMaxVelocityFactor) + ", of the reference; left_arm=1.2cm is a speed, 0 to " +
          Rounded(100 * kMaxVelocity) +
-         " cm a frame; one unit in a command. Or a JSON file, "
-         "for what changes: "
-         "{\"factors\": [{\"time\": 0, \"arms\": 1}, {\"time\": 4, \"arms\": 3}]}, or "
-         "\"speeds\". May be given more than once; the last one of a part counts.";
+         " cm a frame. Use one unit in a command. Or a JSON file of changes: {\"factors\": "
+         "[{\"time\": 0, \"arms\": 1}, {\"time\": 4, \"arms\": 3}]}, or \"speeds\". Repeatable; "
+         "the last value of a part counts.";
 }
 
 std::string FileHelp(const ControlRow& row) {
   if (row.name == kControls[kRootPath].name) {
-    return "JSON file that says where the dancer goes: {\"points\": [{\"time\": 0, "
-           "\"x\": 0, \"z\": 0}, ...]}, seconds and metres; y is the root's height. Keys "
-           "win over it, its heights over keys that state no position. For models that have "
-           "this control (`choreo info`).";
+    return "JSON file of the dancer's path: {\"points\": [{\"time\": 0, \"x\": 0, \"z\": 0}, "
+           "...]}, seconds and metres; y is the root's height. Keys override the path; its heights "
+           "override keys without a position. For models that have this control (`choreo info`).";
   }
   return "JSON file with the fields of " + std::string(row.name) +
          " in the API's Controls. For models that have this control (`choreo info`).";
@@ -41,24 +39,23 @@ CLI::Validator SongFile() {
 }
 
 void AddBeatOptions(CLI::App& command, authoring::BeatOptions* options) {
-  CLI::Option* beats = command.add_option(
-      "--beats", options->beats,
-      "FILE of the song's beats, one a line: its second and, if known, its count in the bar (1: a "
-      "downbeat). auto: they are found. Default: auto; for edits the beats of the dance's report.");
+  CLI::Option* beats =
+      command.add_option("--beats", options->beats,
+                         "FILE with the song's beats, one a line: the second and, if known, the "
+                         "count in the bar (1: a downbeat). auto: find the beats. Default: auto; "
+                         "for edits the beats of the dance's report.");
   command
       .add_option("--tempo", options->hint.tempo_bpm,
-                  "Rough tempo, beats a minute: beats are looked for within 6 % of it.")
+                  "Rough tempo, beats a minute. Beats are sought within 6 % of it.")
       ->check(NumberFrom(kSlowestHint, kFastestHint))
       ->excludes(beats);
   CLI::Option* half =
-      command.add_flag("--half-time", options->hint.half_time, "Count every second beat only.");
-  command
-      .add_flag("--double-time", options->hint.double_time,
-                "Count a beat half way between two, too.")
+      command.add_flag("--half-time", options->hint.half_time, "Use every second beat only.");
+  command.add_flag("--double-time", options->hint.double_time, "Add a beat half way between two.")
       ->excludes(half);
   command
       .add_option("--downbeat", options->downbeat_s,
-                  "A second of the song: the beat nearest to it is the first of its bar.")
+                  "A second of the song; the nearest beat is the first of its bar.")
       ->check(TimeInSeconds());
 }
 
@@ -69,13 +66,13 @@ void AddControlOptions(CLI::App& command, authoring::WrittenControls* controls,
     if (row.name == kControls[kVelocityFactors].name) {
       AddRepeated(command, "--velocity", written.sources, VelocityHelp());
       command.add_option("--velocity-reference", written.reference,
-                         "What --velocity multiplies, of those that `choreo info` lists; default: "
-                         "the model's first.");
+                         "What --velocity multiplies: a reference that `choreo info` lists. "
+                         "Default: the model's first.");
       continue;
     }
     command.add_option(std::string(row.option), written.sources, FileHelp(row))
         ->expected(1)
-        ->check([](const std::string& file) { return file.empty() ? "it names no file" : ""; });
+        ->check([](const std::string& file) { return file.empty() ? "names no file" : ""; });
   }
 }
 

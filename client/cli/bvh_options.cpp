@@ -17,9 +17,9 @@ JointNames NamesOf(const std::string& names) {
 
 void BvhOptions::AddTo(CLI::App& command) {
   command.add_option("--names", names,
-                     "What the joints of a .bvh are called: smpl (default), mixamo, humanik "
-                     "(MotionBuilder, Maya) or ue (Unreal's mannequin).");
-  command.add_option("--unit", unit, "What a unit of a .bvh is: cm (default) or m.")
+                     "Joint names of a .bvh: smpl (default), mixamo, humanik (MotionBuilder, Maya) "
+                     "or ue (Unreal's mannequin).");
+  command.add_option("--unit", unit, "Unit of a .bvh: cm (default) or m.")
       ->check([](const std::string& text) {
         return text == "m" || text == "cm" ? "" : '"' + text + "\" is neither m nor cm";
       });

@@ -17,19 +17,18 @@ namespace choreo::cli {
 void CharacterOptions::AddTo(CLI::App& command) {
   command
       .add_option("--character", character,
-                  "FILE.glb or FILE.vrm: a character of your own, which dances in OUT.glb.")
+                  "FILE.glb or FILE.vrm: your own character, which dances in OUT.glb.")
       ->check(CLI::ExistingFile);
   command
       .add_option(
           "--map", map,
-          "FILE.json that says which of its nodes are which bones, where their names do not.")
+          "FILE.json that says which nodes of --character are which bones, if their names do not.")
       ->check(CLI::ExistingFile);
-  AddHands(command, hands,
-           "What the fingers of --character do (default: relaxed; rest: as its file has them)");
+  AddHands(command, hands, "Fingers of --character (default: relaxed; rest: as in its file)");
   command
       .add_option("--report", report,
-                  "Report of the dance: where its keys say what hands do, fingers of --character "
-                  "go from one to the next, instead of --hands.")
+                  "Report of the dance. If its keys name hands, the fingers of --character move "
+                  "from key to key, and --hands has no effect.")
       ->check(CLI::ExistingFile);
 }
 

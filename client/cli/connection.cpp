@@ -37,28 +37,29 @@ Error Explained(const Error& error, const std::vector<std::string>& addresses) {
 
 void ServerOptions::AddTo(CLI::App& command) {
   AddRepeated(command, "--server", addresses,
-              "HOST:PORT of a choreod. May be given more than once: several are replicas that "
-              "stand in for each other. Without it, one is started on this machine for as long as "
-              "it is needed.")
+              "HOST:PORT of a choreod. Repeatable: several are replicas of each other. Without it, "
+              "the command starts a server on this machine, and stops it at the end.")
       ->envname(kServerVariable);
   command.add_flag("--tls", tls, "Encrypt the connection.")->envname("CHOREO_TLS");
   command
       .add_option("--ca", ca_certificate,
-                  "PEM file of the authority to trust, with --tls; default: the system's.")
+                  "PEM file of the trusted authority, with --tls. Default: the system's.")
       ->envname("CHOREO_CA");
   command
       .add_option("--client-cert", client_certificate,
-                  "PEM file of a certificate to show to the server, with --tls.")
+                  "PEM file of the certificate to show to the server, with --tls.")
       ->envname("CHOREO_CLIENT_CERT");
   command.add_option("--client-key", client_key, "PEM file with the private key of --client-cert.")
       ->envname("CHOREO_CLIENT_KEY");
   command
-      .add_option("--server-name", server_name,
-                  "Whose certificate the server must have, with --tls; default: its address's.")
+      .add_option(
+          "--server-name", server_name,
+          "The name that the server's certificate must have, with --tls. Default: the address's.")
       ->envname("CHOREO_SERVER_NAME");
   command
-      .add_option("--token-file", token_file,
-                  "File of the token that the server wants; sent over TLS, or to this machine.")
+      .add_option(
+          "--token-file", token_file,
+          "File with the token for the server. It is sent only over TLS, or to this machine.")
       ->envname("CHOREO_TOKEN_FILE");
   command.add_option("--deadline", deadline_s, "Give up after this many seconds; 0: never.")
       ->check(TimeInSeconds())
@@ -68,7 +69,7 @@ void ServerOptions::AddTo(CLI::App& command) {
 void ServerOptions::AddInexactResume(CLI::App& command) {
   command.add_flag(
       "--allow-inexact-resume", allow_inexact_resume,
-      "If the server is lost and only one of another model or build is left, go on with that.");
+      "If the server is lost and only another model or build is left, continue with that.");
 }
 
 client::Options ServerOptions::ForClient() const {

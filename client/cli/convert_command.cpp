@@ -99,51 +99,48 @@ void AddConvertCommand(CLI::App& program) {
   auto options = std::make_shared<ConvertOptions>();
   CLI::App* command = program.add_subcommand(
       "convert",
-      "Read a motion and write it in another format: .npz (SMPL, as AMASS), .bvh, .glb\n"
-      "(glTF, with a body to look at) or .vrma (for VRM's avatars). Another rig than SMPL's is\n"
-      "read as SMPL's body, bone by bone; a dance of a model with a skeleton of its own keeps "
-      "that.");
+      "Read a motion and write it in another format: .npz (SMPL, as AMASS), .bvh, .glb (glTF, with "
+      "a body to look at) or .vrma (for VRM avatars).\nOther rigs become SMPL's body, bone by "
+      "bone. A dance of a model with its own skeleton keeps that skeleton.");
   command->add_option("in", options->in, "Motion to read: " + MotionFileExtensions() + ".")
       ->required()
       ->check(CLI::ExistingFile);
   command->add_option("out", options->out, "FILE.npz, FILE.bvh, FILE.glb or FILE.vrma to write.")
       ->required();
   command
-      ->add_option(
-          "--fps", options->fps,
-          "Resample to this rate; of a motion that states none, its rate. Default: as it is.")
+      ->add_option("--fps", options->fps,
+                   "Frames a second to resample to; for a motion that states no rate, its rate. "
+                   "Default: unchanged.")
       ->check(NumberFrom(kMinFileFps, kMaxFileFps));
   command->add_option("--up", options->reading.up,
-                      "The axis of the file that points up: y, z, x, -y, -z or -x; default: as its "
-                      "format has it, or the body stands.");
+                      "Axis of the file that points up: y, z, x, -y, -z or -x. Default: by the "
+                      "format, or by how the body stands.");
   command
-      ->add_option(
-          "--scale", options->reading.scale,
-          "Metres in the file's unit, 0.01 for centimetres; default: as its format has it, "
-          "or by the legs.")
+      ->add_option("--scale", options->reading.scale,
+                   "Metres in the file's unit, 0.01 for centimetres. Default: by the format, or by "
+                   "the legs.")
       ->check(NumberFrom(1e-6, 1e6));
   command->add_option("--angles", options->reading.angles,
-                      "The unit of the file's angles, degrees or radians; default: as its format "
-                      "has it, or the body can.");
-  command->add_option(
-      "--animation", options->reading.animation,
-      "Of a file with several, its name or its number from 0 on; default: the first "
-      "that moves most bones.");
+                      "Unit of the file's angles, degrees or radians. Default: by the format, or "
+                      "by what a body can do.");
+  command->add_option("--animation", options->reading.animation,
+                      "Animation of a file with several: its name, or its number from 0 on. "
+                      "Default: the first that moves most bones.");
   command->add_option("--body", options->reading.body,
-                      "Of a file with several that move, its name or its number from 0 on; "
-                      "default: the first.");
+                      "Body of a file with several that move: its name, or its number from 0 on. "
+                      "Default: the first.");
   command
       ->add_option("--motion-map", options->motion_map,
-                   "FILE.json that says which nodes of the motion are which bones; without "
-                   "--character --map is the same.")
+                   "FILE.json that says which nodes of the motion are which bones. Without "
+                   "--character, --map is the same.")
       ->check(CLI::ExistingFile);
   command->add_flag("--smpl", options->smpl,
-                    "Retarget what has a skeleton of its own to SMPL's 24 joints.");
+                    "Retarget a motion with another skeleton to SMPL's 24 joints.");
   command
       ->add_option("--root-motion", options->root_motion,
-                   "For game engines, what carries the dancer over the floor: pelvis (default); "
-                   "root, a joint on the floor above the pelvis (.glb, also on --character); or "
-                   "in-place, nothing: she turns and jumps where she stands.")
+                   "What carries the dancer over the floor, for game engines: pelvis (default); "
+                   "root, a joint on the floor above the pelvis (.glb, also with --character); or "
+                   "in-place, nothing: she turns and jumps on the spot.")
       ->check(CLI::IsMember(kRootMotions));
   options->bvh.AddTo(*command);
   options->character.AddTo(*command);

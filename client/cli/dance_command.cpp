@@ -130,66 +130,62 @@ void Run(const DanceOptions& options) {
 
 void AddDanceCommand(CLI::App& program) {
   auto options = std::make_shared<DanceOptions>();
-  CLI::App* command =
-      program.add_subcommand("dance",
-                             "Dance to a song, through key poses, and write the motion.\n"
-                             "Alone, as in `choreo dance song.ogg`, it takes key poses of the "
-                             "library that ships, on beats of the music.");
+  CLI::App* command = program.add_subcommand(
+      "dance",
+      "Dance to a song, through key poses, and write the motion.\nAlone, as in `choreo dance "
+      "song.ogg`, it uses key poses of the library, on beats of the music.");
   command
       ->add_option("song", options->song,
                    "WAV, FLAC, Ogg or MP3 file, or - for standard input; with ffmpeg installed, "
-                   "whatever that reads. Without one the dance is silent.")
+                   "any file that it reads. Without a song the dance has no music.")
       ->check(SongFile());
   AddBeatOptions(*command, &options->beats);
-  AddRepeated(*command, "-k,--keyframes", options->keys,
-              "Key poses: a JSON key file, or one key of it (keys.json@ID), or poses of a motion "
-              "file, as in walk.bvh@1.2,3.4 (at these seconds) or walk.bvh@1.2=4 (the pose at 1.2 "
-              "s at second 4 of the dance; =9c: on count 9 of the song, whose first downbeat is "
-              "1). May be given more than once. none: no key at all. "
-              "`choreo analyze SONG --suggest-keys N` names seconds that suit the song.");
+  AddRepeated(
+      *command, "-k,--keyframes", options->keys,
+      "Key poses: a JSON key file, one key of it (keys.json@ID), or poses of a motion file: "
+      "walk.bvh@1.2,3.4 (at these seconds) or walk.bvh@1.2=4 (the pose at 1.2 s, at second 4 of "
+      "the dance; =9c: on count 9 of the song, whose first downbeat is 1). Repeatable. none: no "
+      "keys. `choreo analyze SONG --suggest-keys N` suggests times that suit the song.");
   command->add_option(
       "--end", options->end,
-      "A pose to end in: of the library (bow, stand, ...), or as --keyframes takes one. It is "
-      "reached on the last beat that leaves a second, and held to the end; keys that stand there "
-      "make way. A library pose faces the audience, that of --dancers as each is turned.");
+      "A pose to end in: of the library (bow, stand, ...), or as in --keyframes. The dancer "
+      "reaches it on the last beat that leaves a second, and holds it to the end. Keys in the way "
+      "are removed. A pose of the library faces the audience, or as --dancers turns each dancer.");
   AddAllowBends(*command, options->allow_bends);
   command
-      ->add_option(
-          "--project", options->project,
-          "A project that `choreo studio` saved: its keys, path, seed, style, velocity "
-          "factors, dancers, music and the song beside it, as far as nothing else is said here.")
+      ->add_option("--project", options->project,
+                   "A project of `choreo studio`: its keys, path, seed, style, velocity factors, "
+                   "dancers, music, and the song beside it. Other options override it.")
       ->check(CLI::ExistingFile)
       ->excludes("--keyframes");
   command
       ->add_option("-s,--seconds", options->seconds,
-                   "Length of the dance, which ends with the song at the latest; default: the "
-                   "song's, or else up to the last key pose and point of the path.")
+                   "Length of the dance, at most the song's. Default: the song's, or else up to "
+                   "the last key pose and point of the path.")
       ->check(AboveZero());
   AddSongStart(*command, options->song_start_s);
   AddSeed(*command, options->seed,
-          "Same seed, same dance; it also chooses among the library's key poses. Default: 0.");
+          "Same seed, same dance. It also chooses the key poses of the library. Default: 0.");
   AddManner(*command, options.get());
-  command
-      ->add_option("--fps", options->fps, "Frames a second that are written; default: the model's.")
+  command->add_option("--fps", options->fps, "Frames a second to write. Default: the model's.")
       ->check(NumberFrom(kMinOutputFps, kMaxOutputFps));
   AddControlOptions(*command, &options->controls);
   AddModel(*command, options->model);
   command
       ->add_option("--dancers", options->dancers,
-                   "JSON file that says who dances, where, which way round, how much later and how "
-                   "otherwise: several on one stage (docs/dancers.md). --out is then a file for "
-                   "each, FILE.ID.npz, or one .glb with all of them.")
+                   "JSON file of several dancers on one stage: their places, facings, delays and "
+                   "own settings (docs/dancers.md). --out then means one file each, FILE.ID.npz, "
+                   "or one .glb with all of them.")
       ->check(CLI::ExistingFile);
-  command->add_option(
-      "-o,--out", options->out,
-      "FILE.npz, FILE.bvh, FILE.glb or FILE.vrma to write; default: beside the song, or "
-      "dance.npz. A file that is there is replaced.");
+  command->add_option("-o,--out", options->out,
+                      "FILE.npz, FILE.bvh, FILE.glb or FILE.vrma to write. Default: beside the "
+                      "song, or dance.npz. An existing file is replaced.");
   command->add_option("--report", options->report, "JSON file to write the report to.");
   options->bvh.AddTo(*command);
   AddVmc(*command, options->vmc);
   CLI::Option* vmc = command->get_option("--vmc")->excludes("--dancers");
   vmc->description(vmc->get_description() + " The file of --out is written, too.");
-  command->add_flag("--no-clobber", options->no_clobber, "Replace no motion file that is there.");
+  command->add_flag("--no-clobber", options->no_clobber, "Do not replace an existing motion file.");
   options->server.AddInexactResume(*command);
   options->server.AddTo(*command);
   command->callback([options, command] {

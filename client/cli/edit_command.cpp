@@ -180,149 +180,139 @@ void AddEditCommand(CLI::App& program) {
   auto options = std::make_shared<EditOptions>();
   CLI::App* command = program.add_subcommand(
       "edit",
-      "Set, move, remove and repeat key poses of a finished dance, dance a part or all of it anew, "
-      "or close it to a loop; or cut, mirror and join whole dances.\n"
-      "Only the two intervals around a key are danced anew; every other frame stays as it is, bit "
-      "for bit. They end at the neighbouring keys, if --report names them within 4 s, else "
-      "--around "
-      "seconds away. A key at the frame of another one replaces it, which a note says. A TIME is "
-      "in seconds, or in counts of "
-      "--song: 1c is its first downbeat, 9c the next eight's 1, 9.5c the half beat after it. Keys "
-      "are removed first, then moved, stretched, repeated, mirrored and set; takes come after "
-      "them. With --seed, --style, --path or --velocity alone all is danced anew, through the "
-      "same keys. Whole dances are cut first, then mirrored, then joined.");
+      "Change a finished dance: set, move, remove and repeat key poses, dance a part again, or "
+      "close it to a loop; cut, mirror and join whole dances.\nOnly the two intervals around a key "
+      "change; all other frames stay the same, bit for bit. An interval ends at the neighbouring "
+      "key of --report if that is within 4 s, else after --around seconds. A key on the frame of "
+      "another one replaces it, with a note. A TIME is in seconds, or in counts of --song: 1c is "
+      "its first downbeat, 9c the 1 of the next eight, 9.5c half a beat later. Keys are first "
+      "removed, then moved, stretched, repeated, mirrored and set; retakes come last. --seed, "
+      "--style, --path or --velocity alone dance all of it again, through the same keys. Whole "
+      "dances are first cut, then mirrored, then joined.");
   command
       ->add_option("dance", options->dance,
-                   MotionFileExtensions() + " file; with --mark and --unmark a project.")
+                   MotionFileExtensions() + " file; a project with --mark and --unmark.")
       ->required()
       ->check(CLI::ExistingFile);
-  AddRepeated(*command, "-k,--key", options->keys,
-              "A pose of the library (kick, ...), which is set where the dancer is; or a "
-              "key file with one pose, KEYS.json@ID, or MOTION@SECOND. May be given more than "
-              "once, each with its --at.");
+  AddRepeated(
+      *command, "-k,--key", options->keys,
+      "A key pose to set: a pose of the library (kick, ...), where the dancer is at that time; a "
+      "key file with one pose; KEYS.json@ID; or MOTION@SECOND. Repeatable; each needs its --at.");
   AddRepeated(*command, "--at", options->at,
-              "TIME: the second of the dance for the key, or the count (9c).")
+              "TIME of the key in the dance: a second, or a count (9c).")
       ->check(TimeOrCount());
   command
-      ->add_option(
-          "--move", options->moves,
-          "ID TIME: a key of --report, with what holds it, and the second or count where it "
-          "is to stand, as it is danced now. May be given more than once. Of several keys of one "
-          "name: ID@TIME, the nearest.")
+      ->add_option("--move", options->moves,
+                   "ID TIME: move a key of --report, with its hold, to this second or count of the "
+                   "dance. Repeatable. If several keys have one name, ID@TIME means the nearest.")
       ->allow_extra_args(false);
   AddRepeated(*command, "--remove", options->removed,
-              "ID: a key of --report to dance on without. May be given more than once. Of several "
-              "keys of one name: ID@TIME, the nearest.");
+              "ID: remove a key of --report. Repeatable. If several keys have one name, ID@TIME "
+              "means the nearest.");
   command
       ->add_option(
           "--mark", options->marks,
-          "NAME TIME: a marker to set in a project, or to move to this second or count, if "
-          "it has the name already. May be given more than once.")
+          "NAME TIME: set a marker in a project, or move the marker of this name. Repeatable.")
       ->allow_extra_args(false);
-  AddRepeated(*command, "--unmark", options->unmarked,
-              "NAME: a marker to remove from a project. Of several of one name: NAME@SECOND.");
+  AddRepeated(
+      *command, "--unmark", options->unmarked,
+      "NAME: remove a marker from a project. If several have one name: NAME@SECOND. Repeatable.");
   command
       ->add_option("--hold", options->hold,
-                   "Seconds, or counts (2c), for which the poses of --key and --move are kept. "
-                   "Default: as a key file or --report says, or they are passed.")
+                   "Seconds or counts (2c) to hold the poses of --key and --move. Default: as the "
+                   "key file or --report says, else no hold.")
       ->check(TimeOrCount());
   AddHit(*command, options->hit, "the poses of --key and --move are");
   AddHands(*command, options->hands,
-           "What hands do in the poses of --key and --move, for characters that have fingers "
-           "(convert --report)");
+           "Hands in the poses of --key and --move, for characters with fingers (choreo convert "
+           "--report)");
   command
       ->add_option("--repeat", options->repeats,
-                   "FROM UNTIL LATER: the keys of --report from time FROM on and before UNTIL once "
-                   "more, LATER seconds or counts of --song later (8c), moved and turned to "
-                   "where the dancer is then. Keys that stood there make way. May be given more "
-                   "than once.")
+                   "FROM UNTIL LATER: repeat the keys of --report from FROM on and before UNTIL, "
+                   "LATER seconds or counts of --song (8c) later, moved and turned to where the "
+                   "dancer is then. Keys in the way are removed. Repeatable.")
       ->allow_extra_args(false);
   command
       ->add_option("--stretch", options->stretches,
-                   "FROM UNTIL TIMES: the keys of --report from time FROM on and before UNTIL, "
-                   "TIMES as far from FROM, in counts of --song: 2 for half time, 0.5 for double "
-                   "time. They stay where they are on the floor; keys where they come make way. "
-                   "May be given more than once.")
+                   "FROM UNTIL TIMES: spread the keys of --report from FROM on and before UNTIL "
+                   "over TIMES as many counts of --song: 2 is half time, 0.5 double time. They "
+                   "keep their places on the floor. Keys in the way are removed. Repeatable.")
       ->allow_extra_args(false);
   command
-      ->add_option("--mirror-phrase", options->mirrored,
-                   "FROM UNTIL: the keys of --report from time FROM on and before UNTIL with left "
-                   "and right exchanged, as seen from where the dancer stands and faces at the "
-                   "first of them. May be given more than once.")
+      ->add_option(
+          "--mirror-phrase", options->mirrored,
+          "FROM UNTIL: exchange left and right in the keys of --report from FROM on and before "
+          "UNTIL, as seen from where the dancer stands and faces at the first of them. Repeatable.")
       ->allow_extra_args(false);
   command
       ->add_option("--retake", options->retakes,
-                   "FROM UNTIL: dances what lies between two times anew, through the keys of "
-                   "--report there, which stay: with the seed after the dance's, or as --seed, "
-                   "--style, --path and --velocity say. May be given more than once.")
+                   "FROM UNTIL: dance this part again, through the same keys of --report, with the "
+                   "next seed, or as --seed, --style, --path and --velocity say. Repeatable.")
       ->allow_extra_args(false);
   command->add_option("--end", options->end,
-                      "A pose as in --key for the dance to end in: on the last beat that leaves a "
-                      "second, held to the end. A pose of the library stands where the dancer is "
-                      "then, and faces the audience. Later keys make way.");
-  command->add_flag("--in-place", options->in_place,
-                    "Set poses of files and moved ones, too, where the dancer is and faces at that "
-                    "moment.");
-  AddAllowBends(*command, options->allow_bends);
+                      "End in this pose, given as in --key. The dancer reaches it on the last beat "
+                      "that leaves a second, and holds it to the end. A pose of the library stands "
+                      "where the dancer is then, and faces the audience. Later keys are removed.");
   command->add_flag(
-      "--loop", options->loop,
-      "Lead the last frames back into the first, so that the dance can be repeated. A "
-      "pose that --report says is held at the end stays, and the way back comes "
-      "after it.");
+      "--in-place", options->in_place,
+      "Set poses of files, and moved keys, where the dancer stands and faces at that time, too.");
+  AddAllowBends(*command, options->allow_bends);
+  command->add_flag("--loop", options->loop,
+                    "Lead the last frames back into the first, so that the dance can be repeated. "
+                    "A pose that is held at the end, by --report, stays; the way back follows it.");
   command
       ->add_option("--around", options->around_s,
                    "Seconds that may change before and after a key, or before the end of a loop. "
-                   "Default: up to the neighbouring keys of --report within 4 s; else 2.")
+                   "Default: up to the neighbouring keys of --report within 4 s, else 2.")
       ->check(AboveZero());
   command
       ->add_option("--from", options->from,
-                   "TIME at which what stays of the dance begins, its second 0 from then on.")
+                   "TIME at which the dance is to begin; it becomes second 0.")
       ->check(TimeOrCount());
-  command->add_option("--until", options->until, "TIME before which it ends.")
+  command->add_option("--until", options->until, "TIME before which the dance is to end.")
       ->check(TimeOrCount());
-  command->add_flag("--mirror", options->mirror,
-                    "Exchange left and right of body and stage: the plane x = 0 is the mirror.");
+  command->add_flag("--mirror", options->mirror, "Mirror body and stage at the plane x = 0.");
   CLI::Option* join = command->add_option(
       "--join", options->join,
-      "Another dance to put after this one, moved and turned to where this one ends. The way "
-      "there is danced, unless it begins in the pose in which this one ends.");
+      "Append another dance, moved and turned to where this one ends. The way there is danced, "
+      "unless the other dance begins in the pose in which this one ends.");
   join->check(CLI::ExistingFile);
   command
       ->add_option("--gap", options->gap_s,
-                   "Seconds of that way; default: 1. 0: none, the other dance stays where it is.")
+                   "Seconds of the way to the dance of --join; default: 1. With 0 there is no way, "
+                   "and that dance stays where it is.")
       ->needs(join)
       ->check(TimeInSeconds());
   command
       ->add_option("--join-report", options->join_report,
-                   "Its report, whose keys --new-report takes over.")
+                   "Report of the dance of --join; --new-report takes over its keys.")
       ->needs(join)
       ->check(CLI::ExistingFile);
   command
       ->add_option("--song", options->song,
-                   "Music that the dance was made to. Default: the song that --report names; none: "
-                   "new frames follow no music.")
+                   "Music of the dance. Default: the song that --report names. none: new frames "
+                   "follow no music.")
       ->check(SongOrNone());
   AddSongStart(*command, options->song_start_s);
   AddBeatOptions(*command, &options->beats);
   command
       ->add_option("--report", options->report,
-                   "Report of the dance, which names its keys, and also its song, model, seed, "
-                   "style, path, velocity, beats, music dynamics and variation, with which new "
-                   "frames are danced unless options say otherwise.")
+                   "Report of the dance. It names the keys, and the song, model, seed, style, "
+                   "path, velocity, beats, music dynamics and variation, which new frames use "
+                   "unless options say otherwise.")
       ->check(CLI::ExistingFile);
   command->add_option("--new-report", options->new_report,
-                      "JSON file to write the keys of the new dance to, for the next edit, and the "
-                      "warnings of its edits and of frames that stay.");
-  AddSeed(
-      *command, options->seed,
-      "Same seed, same edit. Default: the dance's, by --report, else 0; with --retake one more. " +
-          kOfChance);
+                      "JSON file to write, for the next edit: the keys of the new dance, and the "
+                      "warnings about its edits and its unchanged frames.");
+  AddSeed(*command, options->seed,
+          "Same seed, same edit. Default: the seed of --report, else 0; one more with --retake. " +
+              kOfChance);
   AddManner(*command, options.get());
   AddControlOptions(*command, &options->controls);
   AddModel(*command, options->model);
   command
       ->add_option("-o,--out", options->out,
-                   "FILE.npz, FILE.bvh, FILE.glb or FILE.vrma to write; of a project, FILE.json.")
+                   "FILE.npz, FILE.bvh, FILE.glb or FILE.vrma to write; FILE.json for a project.")
       ->required();
   options->server.AddTo(*command);
   command->callback([options, command] {

@@ -25,16 +25,16 @@ void Run(const ServerOptions& server, bool any_certificate) {
 void AddHealthCommand(CLI::App& program) {
   auto options = std::make_shared<ServerOptions>();
   options->deadline_s = 3;
-  CLI::App* command =
-      program.add_subcommand("health", "Ask a server once whether it serves; fail if it does not.");
+  CLI::App* command = program.add_subcommand(
+      "health", "Ask a server once whether it serves; fails if it does not.");
   options->AddTo(*command);
   command->get_option("--server")
       ->description("HOST:PORT of the choreod; default: " + client::Options().addresses.front() +
                     ".");
   auto any_certificate = std::make_shared<bool>(false);
-  command->add_flag("--any-certificate", *any_certificate,
-                    "Take the server for alive whatever its certificate, an expired one, too, "
-                    "with --tls: a restart would not mend it.");
+  command->add_flag(
+      "--any-certificate", *any_certificate,
+      "With --tls, accept any certificate, even an expired one: a restart would not mend it.");
   command->callback([options, any_certificate] { Run(*options, *any_certificate); });
 }
 

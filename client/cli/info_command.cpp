@@ -215,10 +215,11 @@ void AddInfoCommand(CLI::App& program) {
   options->server.even_draining = true;
   CLI::App* command =
       program.add_subcommand("info", "Show a server's models, licences, limits and devices.");
-  command->add_flag("--json", options->json, "Print everything as JSON, the model cards included.");
-  command->add_flag("--cards", options->cards,
-                    "Print the models' cards too: how each was trained, on what, and how well.");
-  command->add_flag("--poses", options->poses, "List the key poses that ship instead.");
+  command->add_flag("--json", options->json, "Print everything as JSON, with the model cards.");
+  command->add_flag(
+      "--cards", options->cards,
+      "Print the models' cards, too: how each was trained, on which data, and how well it dances.");
+  command->add_flag("--poses", options->poses, "List the key poses of the library instead.");
   options->server.AddTo(*command);
   command->callback([options] { Run(*options); });
 }

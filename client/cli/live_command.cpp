@@ -231,54 +231,52 @@ void AddLiveCommand(CLI::App& program) {
   auto options = std::make_shared<LiveCommand>();
   CLI::App* command = program.add_subcommand(
       "live",
-      "Dance to music that is sounding now, through poses that are asked for on the way.\n"
-      "Each pose is danced on the first beat that is a second ahead. At a terminal, letters stand "
-      "for poses of the library. Ends with the music, with Ctrl-C, or after the server's longest "
-      "music.");
+      "Dance to music while it sounds, through poses that are requested meanwhile.\nEach pose "
+      "falls on the first beat at least a second ahead. At a terminal, letters request poses of "
+      "the library. The dance ends with the music, with Ctrl-C, or after the longest music that "
+      "the server allows.");
   CLI::Option* song =
       command
-          ->add_option(
-              "song", options->song,
-              "WAV, FLAC, Ogg or MP3 file to take for what sounds. Without one a microphone or "
-              "line in is listened to.")
+          ->add_option("song", options->song,
+                       "WAV, FLAC, Ogg or MP3 file to dance to instead of a microphone or line in.")
           ->check(CLI::ExistingFile);
   AddSongStart(*command, options->song_start_s);
   command
       ->add_option("--input", options->input,
-                   "Microphone or line in, by its name in ALSA; `arecord -L` lists them.")
+                   "Microphone or line in, by its ALSA name; `arecord -L` lists them.")
       ->excludes(song)
       ->capture_default_str();
   AddRepeated(*command, "-k,--keyframes", options->keys,
-              "Key poses that are known from the beginning, as `choreo dance` takes them; seconds "
-              "count from when the dance begins, counts (9c) are those of the song's file. none: "
-              "no keys, as without this.");
+              "Key poses known from the start, as in `choreo dance`. Seconds count from the start "
+              "of the dance, counts (9c) are those of the song's file. none: no keys (default).");
   command
       ->add_option("--osc", options->osc_port,
-                   "UDP port for OSC messages of anybody who reaches it: /choreo/key POSE [SECONDS "
-                   "ahead], /choreo/undo.")
+                   "UDP port for OSC messages: /choreo/key POSE [SECONDS ahead], /choreo/undo. "
+                   "Anybody who reaches the port can send them.")
       ->check(WholeNumberFrom(1, kMaxPort));
   command->add_option("--midi-clock", options->midi_clock,
-                      "Device that raw MIDI comes from, as /dev/snd/midiC1D0: its clock says where "
-                      "the beats are from its Start on, instead of the music.");
+                      "Device of raw MIDI, such as /dev/snd/midiC1D0. From its Start on, beats "
+                      "come from its clock instead of the music.");
   AddBeatOptions(*command, &options->beats);
   for (const char* refused : {"--beats", "--downbeat"})
     command->get_option(refused)->group("");  // with the reason
   command
       ->add_option("--ahead", options->ahead_s,
-                   "Seconds from asking for a pose to the first beat that it may stand on.")
+                   "Least seconds from the request of a pose to its beat.")
       ->check(NumberFrom(0.2, live::kMaxAheadSeconds))
       ->capture_default_str();
   command
-      ->add_option("--look-ahead", options->look_ahead_s,
-                   "Seconds ahead of the music that are settled: poses can't be asked for or taken "
-                   "back there.")
+      ->add_option(
+          "--look-ahead", options->look_ahead_s,
+          "Seconds ahead of the music that are final: no pose can be added or removed there.")
       ->check(NumberFrom(0, live::kMaxAheadSeconds))
       ->capture_default_str();
-  command->add_option("-s,--seconds", options->seconds, "Of music, at most.")->check(AboveZero());
+  command->add_option("-s,--seconds", options->seconds, "Most seconds of music.")
+      ->check(AboveZero());
   AddSeed(*command, options->seed, "Same seed, same music, same poses: same dance. Default: 0.");
   AddManner(*command, options.get());
   AddControlOptions(*command, &options->controls);
-  command->add_option("--fps", options->fps, "Frames a second; default: the model's.")
+  command->add_option("--fps", options->fps, "Frames a second. Default: the model's.")
       ->check(NumberFrom(kMinOutputFps, kMaxOutputFps));
   AddModel(*command, options->model);
   AddVmc(*command, options->vmc);

@@ -97,7 +97,7 @@ const CLI::Validator& SongOrNone() {
 void AddSongStart(CLI::App& command, double& seconds) {
   command
       .add_option("--song-start", seconds,
-                  "Second of the song at which the dance begins; what is before it is left out.")
+                  "Second of the song at which the dance begins. Earlier music is skipped.")
       ->check(TimeInSeconds());
 }
 
@@ -108,16 +108,17 @@ void CheckSongStart(const CLI::App& command, const std::string& song) {
 
 void AddAllowBends(CLI::App& command, bool& allowed) {
   command.add_flag("--allow-bends", allowed,
-                   "Take keys that bend a knee or an elbow more than " + Rounded(kBrokenBackwards) +
+                   "Accept keys that bend a knee or an elbow more than " +
+                       Rounded(kBrokenBackwards) +
                        " degrees backwards, or "
                        "beyond " +
-                       Rounded(kFolded) + " degrees. They are refused otherwise.");
+                       Rounded(kFolded) + " degrees. Otherwise they are refused.");
 }
 
 void AddVmc(CLI::App& command, std::string& address) {
   command.add_option("--vmc", address,
-                     "HOST:PORT to stream the dance to in real time as VMC, which VTuber programs "
-                     "and game engines receive, often at port 39539.");
+                     "HOST:PORT to stream the dance to in real time, as VMC, for VTuber programs "
+                     "and game engines (often port 39539).");
 }
 
 void AddManner(CLI::App& command, DanceManner* manner) {
@@ -125,22 +126,21 @@ void AddManner(CLI::App& command, DanceManner* manner) {
       "--temperature", manner->temperature,
       "Variety, 0 (calm) to " + Rounded(kMaxTemperature) + "; default: the model's. " + kOfChance);
   command
-      .add_option("--music-dynamics", manner->music_dynamics,
-                  "How much the music's energy is that of the dance, 0 (none) to 1; default: " +
-                      Rounded(kDefaultDynamics) + ".")
+      .add_option(
+          "--music-dynamics", manner->music_dynamics,
+          "How much the music's energy shapes that of the dance, 0 (not at all) to 1. Default: " +
+              Rounded(kDefaultDynamics) + ".")
       ->check(NumberFrom(0, 1));
   command
       .add_option("--variation", manner->variation,
-                  "How much the dance to a passage of the music that comes back differs from what "
-                  "was danced to it before, 0 (hardly) to 1 (altogether); default: " +
+                  "How much the dance differs where a passage of the music returns, 0 (hardly) to "
+                  "1 (altogether). Default: " +
                       Rounded(kDefaultVariation) + ".")
       ->check(NumberFrom(0, 1));
   command
-      .add_option(
-          "--style", manner->style,
-          "How to dance, as happy or tired: a style that `choreo info` lists, apart from those "
-          "that do not show, as all of the model default. Default: no style in "
-          "particular.")
+      .add_option("--style", manner->style,
+                  "A style that `choreo info` lists, such as happy or tired. The list says which "
+                  "hardly show, as all styles of the model default. Default: none.")
       ->check([](const std::string& name) {
         return name.empty() ? std::string("is empty; leave it out for no style in particular")
                             : std::string();
@@ -151,8 +151,8 @@ void AddHit(CLI::App& command, std::optional<double>& hit, const std::string& wh
   command
       .add_option("--hit", hit,
                   "How hard " + whose + " hit, 0 (gently) to " + Rounded(kMaxHit) +
-                      " (late and fast), to rest there. Default: danced through, or as a key file "
-                      "says.")
+                      " (late and fast); the dancer comes to rest there. Default: as the key file "
+                      "says, else danced through.")
       ->check(NumberFrom(0, kMaxHit));
 }
 
@@ -162,7 +162,7 @@ void AddHands(CLI::App& command, std::string& hands, const std::string& what) {
 }
 
 void AddModel(CLI::App& command, std::string& model) {
-  command.add_option("-m,--model", model, "Model of the server; default: its first.");
+  command.add_option("-m,--model", model, "Model of the server. Default: its first.");
 }
 
 Error AsTyped(const Error& error) {

@@ -54,8 +54,7 @@ void AddManner(CLI::App& command, DanceManner* manner);
 /// Adds `--model`, one of the server's models.
 void AddModel(CLI::App& command, std::string& model);
 /// The end of the help of all options that only choose among possible dances.
-inline const std::string kOfChance =
-    "Changes nothing where `choreo info` calls the model deterministic.";
+inline const std::string kOfChance = "No effect if `choreo info` calls the model deterministic.";
 /// Prints a note if the requested style does not show in this model's dances.
 void NoteStyle(const client::ModelDescription& model, const std::string& style);
 /// Prints a note if the model is deterministic and any of these options, which affect only chance,

@@ -248,12 +248,12 @@ void AddPlotCommand(CLI::App& program) {
   auto options = std::make_shared<PlotOptions>();
   CLI::App* command = program.add_subcommand(
       "plot",
-      "Compare motions in a line chart: ways over the floor, heights, speeds of parts; or one "
-      "with the beats of its song.");
+      "Compare motions in a line chart: their paths over the floor, heights, or speeds of parts. "
+      "Or show the beats of one motion beside its song's.");
   command
       ->add_option("of", options->of,
-                   "path (from above), height (of the root), the speed of trunk, left_arm, "
-                   "right_arm, left_leg, right_leg, or beats (of the body and of --song).")
+                   "path (from above); height (of the root); trunk, left_arm, right_arm, left_leg "
+                   "or right_leg (its speed); or beats (of the body and of --song).")
       ->required()
       ->check(OneOf(
           {"path", "height", "trunk", "left_arm", "right_arm", "left_leg", "right_leg", "beats"}));
@@ -262,15 +262,15 @@ void AddPlotCommand(CLI::App& program) {
       ->check(CLI::ExistingFile);
   command->add_option("-o,--out", options->out, "PNG file to write.")->required();
   AddRepeated(*command, "--label", options->labels,
-              "What the legend calls a motion, one each; default: the files' names.");
+              "Names of the motions in the legend, one each. Default: the files' names.");
   AddRepeated(*command, "--path", options->paths,
-              "Path file that was asked for: one for all motions, or one each.");
+              "Requested path file: one for all motions, or one each.");
   AddRepeated(*command, "--asked", options->speeds,
-              "Speed that was asked for, cm a frame: one for all motions, or one each.")
+              "Requested speed, cm a frame: one for all motions, or one each.")
       ->check(NumberFrom(0, 1000));
   command
       ->add_option("--song", options->song,
-                   "The song that was danced to: for beats, and for paths in its counts.")
+                   "Song of the dance: for beats, and for paths in counts.")
       ->check(CLI::ExistingFile);
   AddSongStart(*command, options->song_start_s);
   AddBeatOptions(*command, &options->beats);

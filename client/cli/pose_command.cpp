@@ -142,11 +142,11 @@ void Run(const PoseOptions& options) {
 void AddPoseCommand(CLI::App& program) {
   auto options = std::make_shared<PoseOptions>();
   PoseRecipe& recipe = options->recipe;
-  CLI::App* command = program.add_subcommand(
-      "pose",
-      "Make a key pose: from another one, with joints in degrees, hands and feet in places.\n"
-      "It is done in the order of the options below. Without --out and --png the joints are "
-      "printed, in degrees.");
+  CLI::App* command =
+      program.add_subcommand("pose",
+                             "Make a key pose from another one, with joints in degrees, and hands "
+                             "and feet at places.\nOptions apply in the order below. Without --out "
+                             "and --png the joints are printed, in degrees.");
   CLI::Option* from =
       command
           ->add_option(
@@ -157,52 +157,49 @@ void AddPoseCommand(CLI::App& program) {
   CLI::Option* landmarks =
       command
           ->add_option("--from-landmarks", recipe.from_landmarks,
-                       "What MediaPipe Pose saw in a photo: FILE.json of its 33 world landmarks.")
+                       "FILE.json of the 33 world landmarks that MediaPipe Pose found in a photo.")
           ->excludes(from);
   command
       ->add_option("--from-photo", options->photo,
-                   "Says how: the page of `choreo studio` reads photos.")
+                   "Not read here: the page of `choreo studio` reads photos.")
       ->excludes(from);
   command
       ->add_option("--from-smpl", recipe.from_smpl,
-                   "What an estimator saw in a photo as a pose of SMPL: FILE.json or FILE.npz of "
+                   "FILE.json or FILE.npz with the SMPL pose that an estimator found in a photo: "
                    "24 axis-angle vectors or matrices.")
       ->excludes(from)
       ->excludes(landmarks);
   AddRepeated(*command, "--set", recipe.set,
-              "JOINT=DEGREES. Knees and elbows take one number, how far they bend; other joints "
+              "JOINT=DEGREES. Knees and elbows take one number, their bend. Other joints take "
               "three, as in left_shoulder=10,0,-45: turns about x (to the dancer's left), y (up) "
-              "and z (forward), in this order. May be given more than once.");
+              "and z (forward), in this order. Repeatable.");
   CLI::Option* ground = command->add_flag_callback(
       "--ground", [options] { options->recipe.height_m = 0; },
-      "Put the lowest point of the body onto the floor.");
+      "Put the lowest point of the body on the floor.");
   command
       ->add_option("--lift", recipe.height_m,
-                   "Put it so many metres above the floor, for a jump. Not with --ground.")
+                   "Metres of that point above the floor, for a jump. Not with --ground.")
       ->check(NumberFrom(0, kMaxJumpHeight))
       ->excludes(ground);
-  AddRepeated(
-      *command, "--reach", recipe.reach,
-      "JOINT=X,Y,Z: draw a joint to a place, metres, as in right_hand=0.3,1.6,0.2. Feet "
-      "that are not drawn stay where they are; a foot's height is its sole's. Trunk and arms "
-      "follow the pelvis. May be given more than once.");
+  AddRepeated(*command, "--reach", recipe.reach,
+              "JOINT=X,Y,Z: pull a joint to a place, metres, as in right_hand=0.3,1.6,0.2. The "
+              "other feet stay where they are; a foot's height is its sole's. Trunk and arms "
+              "follow the pelvis. Repeatable.");
   command->add_flag("--keep-hands", recipe.keeps_hands,
-                    "Hands and head stay near their places where --reach moves the pelvis.");
-  command->add_flag("--mirror", recipe.mirror, "Make left what is right.");
-  command->add_option("--at", options->at_s, "Second of the dance for the key that is written.")
+                    "Keep hands and head near their places if --reach moves the pelvis.");
+  command->add_flag("--mirror", recipe.mirror, "Exchange left and right.");
+  command->add_option("--at", options->at_s, "Second of the dance for the written key.")
       ->check(TimeInSeconds())
       ->capture_default_str();
   AddHands(*command, options->hands,
-           "What hands do in the key that is written, for characters that have fingers (choreo "
-           "convert)");
-  command->add_option("--description", options->description, "Is written with the pose.");
+           "Hands in the written key, for characters with fingers (choreo convert)");
+  command->add_option("--description", options->description, "Description to write with the pose.");
   AddRepeated(*command, "--tag", options->tags,
-              "Is written with the pose; with --list, only poses that have it. May be given more "
-              "than once.");
+              "Tag to write with the pose; with --list, only poses with this tag. Repeatable.");
   command->add_option("-o,--out", options->out, "Key file to write, FILE.json.");
   command->add_option("--png", options->png, "Picture to write: the pose from three sides.");
   command->add_flag("--list", options->list,
-                    "Show the poses of the library instead; with --png as a picture.");
+                    "Show the poses of the library instead; as a picture with --png.");
   command->callback([options] { Run(*options); });
 }
 

@@ -198,24 +198,22 @@ void Run(RenderOptions options, const DanceReport& report) {
 void AddRenderCommand(CLI::App& program) {
   auto options = std::make_shared<RenderOptions>();
   CLI::App* command = program.add_subcommand("render",
-                                             "Draw a motion, or several on one stage: as a contact "
-                                             "sheet (--out), as a video with its song "
-                                             "(--video).");
+                                             "Draw motions on one stage, as a contact sheet "
+                                             "(--out) or as a video with its song (--video).");
   command
       ->add_option("motion", options->motions,
-                   MotionFileExtensions() + " file. Of several, all that are seen together.")
+                   MotionFileExtensions() + " file. Several are drawn together.")
       ->required()
       ->check(CLI::ExistingFile);
   command->add_option("-o,--out", options->out, "Contact sheet to write, a PNG file.");
   command
       ->add_option("--report", options->report,
-                   "Report of the dance: its key poses are highlighted, and its song is heard.")
+                   "Report of the dance: marks its key poses, and names the song of the video.")
       ->check(CLI::ExistingFile);
   command
-      ->add_option(
-          "--from", options->from,
-          "TIME from which on it is drawn: a second (2.5) of the motion, or a count (9c) of "
-          "its song.")
+      ->add_option("--from", options->from,
+                   "TIME at which the drawing begins: a second (2.5) of the motion, or a count "
+                   "(9c) of its song.")
       ->check(TimeOrCount());
   command->add_option("--until", options->until, "TIME before which the drawing ends.")
       ->check(TimeOrCount());
@@ -224,29 +222,29 @@ void AddRenderCommand(CLI::App& program) {
       ->capture_default_str();
   command
       ->add_option("--camera", options->camera,
-                   "From where the dance is seen: front, three-quarter (from her left), side (the "
-                   "left), back, of one dancer as she faces at the beginning, of several as the "
-                   "stage does; or follow: three quarters from the front, turning with one dancer. "
-                   "Default: three-quarter; of several front.")
+                   "Where the camera stands: front, three-quarter (to the left of front), side "
+                   "(her left) or back, of one dancer as she faces at the start, of several as the "
+                   "stage does; or follow: three-quarter, turning with one dancer. Default: "
+                   "three-quarter, of several front.")
       ->check(OneOf({kCameraNames.begin(), kCameraNames.end()}));
   command->add_option("--columns", options->sheet.columns, "Frames in a row.")
       ->check(WholeNumberFrom(1, kMaxSheetColumns))
       ->capture_default_str();
   command->add_option("--title", options->sheet.title, "Heading; default: the file's name.");
-  CLI::Option* video = command->add_option(
-      "--video", options->video, "Video to write, an MP4 file; the program ffmpeg makes it.");
+  CLI::Option* video =
+      command->add_option("--video", options->video, "MP4 file to write; needs ffmpeg.");
   command
-      ->add_option("--song", options->song,
-                   "The video's music: begins with the motion's first frame, ends with the last "
-                   "one drawn. Default: "
-                   "the song that --report names, where its dance begins; none: silence.")
+      ->add_option(
+          "--song", options->song,
+          "Music of the video, from the motion's first frame to the last one drawn. Default: the "
+          "song that --report names, from where its dance begins. none: silence.")
       ->check(SongOrNone());
   AddSongStart(*command, options->film.format.song_start_s);
   command->add_option("--fps", options->film.format.fps, "Frames a second of the video.")
       ->needs(video)
       ->check(NumberFrom(kMinVideoFps, kMaxVideoFps))
       ->capture_default_str();
-  command->add_option("--size", options->size, "Of the video, pixels.")
+  command->add_option("--size", options->size, "Size of the video, pixels.")
       ->needs(video)
       ->capture_default_str();
   command->callback([options, command] {

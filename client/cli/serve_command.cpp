@@ -36,9 +36,8 @@ void Run(std::vector<std::string> options) {
 void AddServeCommand(CLI::App& program) {
   CLI::App* command = program.add_subcommand(
       "serve",
-      "Keep a server on this machine, for commands with --server or CHOREO_SERVER: they need not "
-      "start one each.\n"
-      "Takes choreod's options, which choreod --help lists.");
+      "Keep a server on this machine, so that commands with --server or CHOREO_SERVER need not "
+      "start one each.\nTakes choreod's options (choreod --help).");
   command->prefix_command();
   command->callback([command] { Run(command->remaining()); });
 }

@@ -43,17 +43,19 @@ void Run(const StudioOptions& options) {
 
 void AddStudioCommand(CLI::App& program) {
   auto options = std::make_shared<StudioOptions>();
-  CLI::App* command = program.add_subcommand(
-      "studio",
-      "Compose dances in the browser: a song, key poses on its beats, and the dance that goes "
-      "through them.\n"
-      "Serves a page on this machine and says where; nothing that the page does leaves it.");
-  command->add_option("song", options->song, "Song to begin with; others are dropped on the page.")
+  CLI::App* command =
+      program.add_subcommand("studio",
+                             "Compose dances in the browser: a song, key poses on its beats, and "
+                             "the dance through them.\nServes a page on this machine and prints "
+                             "its address. Nothing on the page leaves the machine.");
+  command
+      ->add_option("song", options->song,
+                   "Song to begin with. More songs can be dropped on the page.")
       ->check(CLI::ExistingFile);
   command
       ->add_option("--listen", options->listen,
-                   "HOST:PORT to serve the page at; port 0 takes a free one. Whoever reaches it "
-                   "can use the studio: it knows no passwords.")
+                   "HOST:PORT of the page; port 0 takes a free one. The studio has no passwords: "
+                   "whoever reaches it can use it.")
       ->capture_default_str();
   options->server.AddTo(*command);
   command->callback([options] { Run(*options); });

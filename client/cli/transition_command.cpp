@@ -166,39 +166,39 @@ void AddTransitionCommand(CLI::App& program) {
   auto options = std::make_shared<TransitionOptions>();
   CLI::App* command =
       program.add_subcommand("transition", "Move from one pose to another, with or without music.");
-  const std::string pose = "a pose of the library (contrapposto, ...), key file, or MOTION@SECOND.";
+  const std::string pose =
+      "a pose of the library (contrapposto, ...), a key file, or MOTION@SECOND.";
   command->add_option("--from", options->from, "Where to begin: " + pose)->required();
   command->add_option("--to", options->to, "Where to end: " + pose)->required();
   command
       ->add_option("-n,--frames", options->frames,
-                   "Length, in frames of the model, up to the longest that it can make (`choreo "
-                   "info`).")
+                   "Length in frames of the model, at most its longest transition (`choreo info`).")
       ->check(WholeNumberFrom(1, std::numeric_limits<int>::max()))
       ->capture_default_str();
   command->add_option("--song", options->song, "Music to move to.")->check(SongFile());
   AddBeatOptions(*command, &options->beats);
   command
       ->add_option("--at", options->at,
-                   "Second of the song, path and factors at which it begins, or count of the song "
-                   "(9c; its first downbeat is 1c).")
+                   "TIME of the song, path and factors at which the transition begins: a second, "
+                   "or a count (9c; the first downbeat is 1c).")
       ->check(TimeOrCount())
       ->capture_default_str();
   command
       ->add_option(
           "--candidates", options->candidates,
-          "Alternatives; the best is FILE, the others are FILE.2.npz and so on. " + kOfChance)
+          "Number of alternatives. The best is FILE, the others are FILE.2.npz and so on. " +
+              kOfChance)
       ->check(WholeNumberFrom(1, kMaxCandidates))
       ->capture_default_str();
   command
-      ->add_option(
-          "--rank-by", options->rank_by,
-          "quality (steering, support, skating) | likelihood (of models that have one, see "
-          "`choreo info`): which alternative is the best.")
+      ->add_option("--rank-by", options->rank_by,
+                   "Which alternative is the best, by quality (steering, support, skating) or by "
+                   "likelihood (if the model has one, see `choreo info`).")
       ->check(OneOf({"quality", "likelihood"}))
       ->capture_default_str();
   AddHit(*command, options->hit, "the end is");
   AddHands(*command, options->hands,
-           "What hands do at the end, for characters that have fingers (choreo convert --report)");
+           "Hands at the end, for characters with fingers (choreo convert --report)");
   AddSeed(*command, options->seed, "Same seed, same motion. Default: 0. " + kOfChance);
   AddManner(*command, options.get());
   AddControlOptions(*command, &options->controls);

@@ -319,7 +319,7 @@ TEST_F(ControlledCommandTest, BadPathsAreRefused) {
   ExpectRefused("--path " + At("none.json"), "none.json: cannot be opened");
   const Outcome unset = Choreo("dance" + Walker() + "--seconds 4 --path ''");
   EXPECT_EQ(unset.code, 2) << "a script's variable that is not set";
-  EXPECT_THAT(unset.said, HasSubstr("--path: it names no file"));
+  EXPECT_THAT(unset.said, HasSubstr("--path: names no file"));
 }
 
 TEST_F(ControlledCommandTest, APathOfTenHoursIsRefused) {
