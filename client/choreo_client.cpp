@@ -138,14 +138,14 @@ void RemoteDance::SendSamples(std::span<const float> interleaved) {
       interleaved.size_bytes() % bytes != 0) {
     throw InvalidArgument("samples",
                           std::to_string(interleaved.size()) +
-                              " values are no whole samples of this dance's audio format");
+                              " values are not whole samples of this dance's audio format");
   }
   impl_->SendMusic(ToPcmBytes(interleaved));
 }
 
 void RemoteDance::SendBytes(std::span<const std::byte> bytes) {
   if (impl_->audio_kind() != AudioKind::kFile) {
-    throw InvalidArgument("bytes", "this dance's audio is not that of a file");
+    throw InvalidArgument("bytes", "this dance's audio is not a file");
   }
   impl_->SendMusic({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
 }

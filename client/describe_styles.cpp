@@ -9,7 +9,7 @@ std::string DescribeStyles(const std::optional<StyleFigures>& figures) {
   const auto percent = [](double share) { return std::to_string(std::llround(share)) + " %"; };
   return std::string(figures->shows() ? "They show" : "They do not show") + ": in " +
          percent(figures->recognised) +
-         " of seconds a classifier recognises the style asked for, by chance in " +
+         " of seconds a classifier recognises the requested style, by chance in " +
          percent(figures->chance) + ".";
 }
 

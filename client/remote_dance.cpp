@@ -210,7 +210,7 @@ Message RemoteDance::Impl::HandleHeader(const v1::Header& header) {
   }
   if (received.fps != header_->fps || received.skeleton.joints() != header_->skeleton.joints()) {
     throw Error(ErrorCode::kInternal, "",
-                "the server that should go on with the dance has another frame rate or body");
+                "the server that should resume the dance has another frame rate or body");
   }
   return Resumed{attempt_->server().address, filter_->next_frame(), exact, lost_because_};
 }

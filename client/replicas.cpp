@@ -86,14 +86,13 @@ bool IsOfThisMachine(const std::string& address) {
 void CheckAddress(const std::string& address) {
   if (address.empty()) throw InvalidArgument("addresses", "one of them is empty");
   if (address.starts_with("http:") || address.starts_with("https:")) {
-    throw InvalidArgument("addresses", address + " is a URL; HOST:PORT is wanted");
+    throw InvalidArgument("addresses", address + " is a URL; use HOST:PORT");
   }
   for (const char* scheme : {"unix:", "unix-abstract:", "xds:"}) {
     if (address.starts_with(scheme)) return;
   }
   const std::string port = SplitAddress(address).port;
-  if (!IsNumber(port))
-    throw InvalidArgument("addresses", address + " has no port; HOST:PORT is wanted");
+  if (!IsNumber(port)) throw InvalidArgument("addresses", address + " has no port; use HOST:PORT");
   if (ParsePort(port).value_or(0) < 1) {
     throw InvalidArgument("addresses", address + ": port " + port + " is not in [1, " +
                                            std::to_string(kMaxPort) + "]");
@@ -103,11 +102,12 @@ void CheckAddress(const std::string& address) {
 void CheckToken(const Options& options) {
   if (options.token_file.empty()) return;
   if (options.any_certificate)
-    throw InvalidArgument("token_file", "no token goes to a server with any certificate");
+    throw InvalidArgument("token_file",
+                          "a token is not sent to a server whose certificate is not checked");
   if (options.tls) return;
   for (const std::string& address : options.addresses) {
     if (IsOfThisMachine(address)) continue;
-    throw InvalidArgument("token_file", "a token goes to " + address + " over TLS alone");
+    throw InvalidArgument("token_file", "a token is sent to " + address + " only over TLS");
   }
 }
 
@@ -172,8 +172,8 @@ void Replicas::Prepare(grpc::ClientContext* context) const {
   const bool visible =
       std::all_of(token.begin(), token.end(), [](char c) { return c > ' ' && c < '\x7f'; });
   if (token.empty() || !visible) {
-    throw InvalidArgument("token_file",
-                          options_.token_file.string() + " is no line of visible ASCII characters");
+    throw InvalidArgument("token_file", options_.token_file.string() +
+                                            " is not one line of visible ASCII characters");
   }
   context->AddMetadata("authorization", "Bearer " + token);
 }

@@ -89,12 +89,12 @@ std::string ReasonIn(const std::string& message) {
 std::string TlsHint(const std::string& message, const Options& options) {
   // A TLS server closes connections without TLS, and with a client certificate that it rejects.
   if (message.ends_with("ocket closed")) {
-    if (!options.tls) return "; it may want TLS, which is off";
-    return options.client_certificate.empty() ? "; it may want a client certificate"
+    if (!options.tls) return "; it may need TLS, which is off";
+    return options.client_certificate.empty() ? "; it may need a client certificate"
                                               : "; it may refuse this client certificate";
   }
   if (message.ends_with("certificate verify failed"))
-    return "; its certificate has expired, or is not of the authority trusted (--ca)";
+    return "; its certificate has expired, or is not from the trusted authority (--ca)";
   return "";
 }
 
@@ -139,10 +139,10 @@ Error ToError(const grpc::Status& status, const std::string& address, const Opti
                 " s; another server may have room"};
   }
   if (error.code() != ErrorCode::kUnavailable) return error;
-  const std::string message = IsUnhealthy(status)
-                                  ? "the server takes no calls: it drains, or an engine of it fails"
-                              : IsAway(status) ? "no server is reached: " + ReasonIn(error.what())
-                                               : error.what();
+  const std::string message =
+      IsUnhealthy(status) ? "the server takes no calls: it drains, or an engine of it fails"
+      : IsAway(status)    ? "no server can be reached: " + ReasonIn(error.what())
+                          : error.what();
   return {ErrorCode::kUnavailable, address, message + TlsHint(message, options)};
 }
 

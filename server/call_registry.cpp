@@ -13,7 +13,7 @@ constexpr double kLongestWait = 60;
 /// received.
 constexpr std::chrono::seconds kThere{60};
 
-const char* const kGoingAway = "the server is going away; try another one";
+const char* const kGoingAway = "the server is draining; try another one";
 
 Refused Full(int calls, int most) {
   return {Refusal::kStreams, "the server is full: " + std::to_string(calls) +
@@ -29,7 +29,7 @@ std::string Seconds(std::chrono::milliseconds limit) {
 
 Error ResumeElsewhere() {
   return {ErrorCode::kUnavailable, "",
-          "the server is going away; another one can go on from the last continuation"};
+          "the server is draining; another one can resume from the last continuation"};
 }
 
 void CallRegistry::Enter(const std::shared_ptr<Call>& call, std::string party) {
@@ -110,13 +110,12 @@ void CallRegistry::EndIdle() {
       idle.push_back(
           {call, progress.unread,
            Error(ErrorCode::kDeadlineExceeded, "",
-                 progress.unread
-                     ? "an answer was not taken within " + Seconds(limit) +
-                           ", the server's limits.unread_s (--unread-seconds): read "
-                           "faster, or go on from the last continuation"
-                     : "nothing came from the client and nothing went there for " + Seconds(limit) +
-                           ", the server's limits.idle_s (--idle-seconds): a player "
-                           "that pauses sends its generate_until again meanwhile")});
+                 progress.unread ? "the client took no answer within " + Seconds(limit) +
+                                       ", the server's limits.unread_s (--unread-seconds): read "
+                                       "faster, or resume from the last continuation"
+                                 : "no message came or went for " + Seconds(limit) +
+                                       ", the server's limits.idle_s (--idle-seconds): a paused "
+                                       "player sends its generate_until again to keep the call")});
     }
   }
   for (const Idle& one : idle) {

@@ -67,9 +67,9 @@ class CallSession : public Call {
     const Clock::time_point now = serving_.calls.time().Now();
     if (!revoked_since_) revoked_since_ = now;
     if (!outbox_.open() || now - *revoked_since_ < kRevoking) return;
-    End(Unauthenticated(
-        "its token has been revoked; with another one the dance goes on from the last "
-        "continuation"));
+    End(
+        Unauthenticated("its token has been revoked; with another one the dance can resume from "
+                        "the last continuation"));
   }
 
   /// Identifies the caller; call first. Returns false if the token is not valid, which ends the
@@ -103,13 +103,13 @@ class CallSession : public Call {
     }
     grpc::Status status = outbox_.status();
     if (status.ok() && lost)
-      status = {grpc::StatusCode::CANCELLED, "the client left before its dance was over"};
+      status = {grpc::StatusCode::CANCELLED, "the client left before the end of its dance"};
     Count(status);
   } catch (const std::bad_alloc&) {  // loses the log line, but keeps the server
   }
 
   void GiveUp() noexcept override try {
-    Count({grpc::StatusCode::UNAVAILABLE, "the server was told to leave at once"});
+    Count({grpc::StatusCode::UNAVAILABLE, "the server was told to exit immediately"});
   } catch (const std::bad_alloc&) {
   }
 

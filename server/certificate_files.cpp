@@ -76,7 +76,7 @@ std::optional<bool> CertificateFiles::Refresh() {
     const bool is_certain = fault == std::exchange(suspicion_, fault);
     if (!is_certain || fault == fault_) return std::nullopt;
     fault_ = fault;
-    spdlog::error("{}; the former files are used on, the certificate until {}", fault,
+    spdlog::error("{}; the former files stay in use, the certificate until {}", fault,
                   Date(expires_));
     return false;
   }

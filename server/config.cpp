@@ -62,11 +62,11 @@ void CheckSecurity(const ServerConfig& config) {
   }
   if (!config.tokens.empty()) RequireRegularFile("--tokens", config.tokens);
   if (config.tls_certificate.empty() && !config.insecure && !IsLocal(config.listen)) {
-    throw InvalidArgument("--listen",
-                          '"' + config.listen +
-                              "\" can be reached from other machines, and without TLS "
-                              "everybody on the way can read along: give --tls-cert and "
-                              "--tls-key, or --insecure where that is wanted");
+    throw InvalidArgument(
+        "--listen",
+        '"' + config.listen +
+            "\" can be reached from other machines, and without TLS everybody on the way can read "
+            "along: set --tls-cert and --tls-key, or --insecure to allow it");
   }
 }
 
@@ -79,7 +79,7 @@ void RequireNoEmptyFile(const CLI::App& app) {
     const bool empty = option->count() == 0
                            ? variable != nullptr && *variable == '\0'
                            : std::ranges::any_of(option->results(), &std::string::empty);
-    if (empty) throw InvalidArgument(name, "is empty; leave it out where none is wanted");
+    if (empty) throw InvalidArgument(name, "is empty; leave it out for none");
   }
 }
 
@@ -227,9 +227,9 @@ void ServerConfig::Validate() const {
                                           "checkpoint into the folder");
   }
   if (!names.empty() && (!models.empty() || !checkpoints.empty()))
-    throw InvalidArgument("--model", '"' + names.front() +
-                                         "\" is a model that ships; --checkpoint and --models "
-                                         "exclude it");
+    throw InvalidArgument(
+        "--model",
+        '"' + names.front() + "\" is a shipped model; it excludes --checkpoint and --models");
   ParseEngineKind(engine, "--engine");
   CheckKernels(kernels);
   // Devices are checked for existence when they are used; `auto` uses whatever exists.

@@ -16,17 +16,16 @@ void AddOptions(CLI::App& app, ServerConfig& config) {
       ->envname("CHOREO_LISTEN")
       ->capture_default_str();
   app.add_option("--checkpoint", config.checkpoints,
-                 "Model to serve, a .safetensors file; give several for several models, the "
-                 "default first. Without it, default and free, which ship.")
+                 "Model to serve, a .safetensors file. Repeatable; the first is the default. "
+                 "Without it: the shipped models default and free.")
       ->envname("CHOREO_CHECKPOINT");
-  app.add_option(
-         "--model", config.names,
-         "Name of a model that ships, to be served alone: default, free, or a paper's own network, "
-         "paper-f or paper-c; give several for several.")
+  app.add_option("--model", config.names,
+                 "Name of a shipped model to serve alone: default, free, or a paper's own network, "
+                 "paper-f or paper-c. Repeatable.")
       ->envname("CHOREO_MODEL");
   app.add_option("--models", config.models,
                  "Folder of models to serve instead: each .safetensors file in it, "
-                 "default.safetensors first. SIGHUP has it read again while dances go on.")
+                 "default.safetensors first. SIGHUP reads it again while dances continue.")
       ->envname("CHOREO_MODELS");
   app.add_option("--device", config.device,
                  "Where to compute: auto (a GPU if this build and machine have one), cpu, or "
@@ -35,68 +34,63 @@ void AddOptions(CLI::App& app, ServerConfig& config) {
       ->capture_default_str();
   app.add_option(
          "--engine", config.engine,
-         "What computes the flows' networks: torch (LibTorch, on any device), packed (our own "
-         "kernels, on the CPU), packed-bf16 (the same with products of bfloat16, on CPUs with "
-         "AVX512-BF16), or "
-         "auto, the fastest of them here. Replicas that take over each other's dances must agree.")
+         "Engine of the flows' networks: torch (LibTorch, on any device), packed (our own kernels, "
+         "on the CPU), packed-bf16 (the same with products of bfloat16, on CPUs with AVX512-BF16), "
+         "or auto, the fastest here. Replicas that resume each other's dances must agree.")
       ->envname("CHOREO_ENGINE")
       ->capture_default_str();
-  app.add_option(
-         "--max-waiting", config.max_waiting,
-         "Transitions of GenerateTransition that may be in progress or wait, for each model: "
-         "candidates, not calls. Those beyond are refused (RESOURCE_EXHAUSTED).")
+  app.add_option("--max-waiting", config.max_waiting,
+                 "Most transitions of GenerateTransition in progress or waiting, for each model; "
+                 "candidates count, not calls. More are refused (RESOURCE_EXHAUSTED).")
       ->envname("CHOREO_MAX_WAITING")
       ->capture_default_str();
-  app.add_option(
-         "--max-streams", config.max_streams,
-         "Calls in progress at once. Those beyond are refused (RESOURCE_EXHAUSTED). 0: 50 a core, "
-         "and at least 64; --max-load refuses what the cores cannot carry.")
+  app.add_option("--max-streams", config.max_streams,
+                 "Most calls in progress. More are refused (RESOURCE_EXHAUSTED). 0: 50 a core, and "
+                 "at least 64; --max-load also refuses what the cores cannot carry.")
       ->envname("CHOREO_MAX_STREAMS")
       ->capture_default_str();
   app.add_option("--workers", config.workers,
-                 "Workers of the CPU, for each model: transitions made at once. 0: one for every "
-                 "usable core.")
+                 "CPU workers for each model: transitions sampled at the same time. 0: one for "
+                 "each usable core.")
       ->envname("CHOREO_WORKERS")
       ->capture_default_str();
   app.add_option("--threads", config.threads,
                  "Threads of one matrix product. 1 is the fastest for small models; replicas that "
-                 "take over each other's dances must agree.")
+                 "resume each other's dances must agree.")
       ->envname("CHOREO_THREADS")
       ->capture_default_str();
   app.add_option("--io-threads", config.io_threads,
-                 "Threads that decode files, and as many that digest long pieces of music.")
+                 "Threads that decode files, and as many that analyse long pieces of music.")
       ->envname("CHOREO_IO_THREADS")
       ->capture_default_str();
   app.add_option("--drain-seconds", config.drain_seconds,
-                 "After SIGTERM or SIGINT: how long streams may go on before they end as "
-                 "UNAVAILABLE. New ones are refused at once, and health says NOT_SERVING.")
+                 "Seconds that streams may continue after SIGTERM or SIGINT before they end as "
+                 "UNAVAILABLE. New ones are refused, and health says NOT_SERVING.")
       ->envname("CHOREO_DRAIN_SECONDS")
       ->capture_default_str();
   app.add_option("--outbox-kib", config.outbox_kib,
-                 "Answers that may wait for a slow client before its dance pauses, KiB.")
+                 "KiB of answers that may wait for a slow client before its dance pauses.")
       ->envname("CHOREO_OUTBOX_KIB")
       ->capture_default_str();
-  app.add_option(
-         "--max-file-music-mib", config.max_file_music_mib,
-         "Music files that are still coming, over all calls, MiB of memory. Calls that would "
-         "go beyond are refused (RESOURCE_EXHAUSTED).")
+  app.add_option("--max-file-music-mib", config.max_file_music_mib,
+                 "MiB of memory for incomplete music files of all calls. Calls that need more are "
+                 "refused (RESOURCE_EXHAUSTED).")
       ->envname("CHOREO_MAX_FILE_MUSIC_MIB")
       ->capture_default_str();
   app.add_option("--max-network-mib", config.max_network_mib,
-                 "Memory for what clients are sending and have not finished, over all connections, "
-                 "MiB. Beyond it gRPC takes less at a time, then ends calls.")
+                 "MiB of memory for incomplete messages of all connections. Beyond it gRPC reads "
+                 "less at a time, then ends calls.")
       ->envname("CHOREO_MAX_NETWORK_MIB")
       ->capture_default_str();
   app.add_option("--kernels", config.kernels,
                  "Instructions of the packed engine, one of " + KernelNames() +
-                     ". Without it, the fastest here. Replicas on different CPUs take over each "
-                     "other's dances where all have the slowest one's.")
+                     ". Default: the fastest here. Replicas on different CPUs can resume each "
+                     "other's dances if all use those of the slowest.")
       ->envname("CHOREO_KERNELS");
   // Only available on the command line: a variable or a file must not keep a server from serving.
-  app.add_flag(
-         "--check", config.check,
-         "Read settings, models, certificates and tokens as a start would, say \"ok\" or what "
-         "is wrong, and leave: before a restart, beside the server that runs.")
+  app.add_flag("--check", config.check,
+               "Read settings, models, certificates and tokens as at start, print \"ok\" or what "
+               "is wrong, and exit. Use it before a restart, beside the running server.")
       ->configurable(false);
   // CLI11 reads variables only after the file, so this variable must be set as the option's
   // default.
@@ -111,32 +105,32 @@ void AddOptions(CLI::App& app, ServerConfig& config) {
 // Limits on clients' resources and idle time.
 void AddLimits(CLI::App& app, ServerConfig& config) {
   app.add_option("--max-streams-of-peer", config.max_streams_of_peer,
-                 "Calls in progress at once of one token's holder or, without --tokens, from one "
-                 "address. 0: all of --max-streams for a lone caller, seven eighths while another "
-                 "is there.")
+                 "Most calls in progress of one token's holder or, without --tokens, from one "
+                 "address. 0: --max-streams for a lone caller, seven eighths of it beside another.")
       ->envname("CHOREO_MAX_STREAMS_OF_PEER")
       ->capture_default_str();
-  app.add_option("--first-message-seconds", config.first_message_seconds,
-                 "A call whose first message does not come within these is DEADLINE_EXCEEDED.")
+  app.add_option(
+         "--first-message-seconds", config.first_message_seconds,
+         "Seconds within which a call's first message must come, or it ends as DEADLINE_EXCEEDED.")
       ->envname("CHOREO_FIRST_MESSAGE_SECONDS")
       ->capture_default_str();
   app.add_option("--idle-seconds", config.idle_seconds,
-                 "So is one of which nothing comes and to which nothing goes for these.")
+                 "Seconds without a message in either direction after which a call ends as "
+                 "DEADLINE_EXCEEDED.")
       ->envname("CHOREO_IDLE_SECONDS")
       ->capture_default_str();
   app.add_option("--unread-seconds", config.unread_seconds,
-                 "A call whose client does not take an answer within these is reset.")
+                 "Seconds within which a client must take an answer, or its call is reset.")
       ->envname("CHOREO_UNREAD_SECONDS")
       ->capture_default_str();
-  app.add_option(
-         "--max-load", config.max_load,
-         "Share of the cores' and engines' time that may be promised to calls, each by the frames "
-         "that it will take: those beyond are refused (RESOURCE_EXHAUSTED). Above 1: none are.")
+  app.add_option("--max-load", config.max_load,
+                 "Share of the cores' and engines' time that calls may need, by their frames. More "
+                 "calls are refused (RESOURCE_EXHAUSTED). Above 1: none are.")
       ->envname("CHOREO_MAX_LOAD")
       ->capture_default_str();
   app.add_option("--max-connection-seconds", config.max_connection_seconds,
-                 "A connection of this age takes no new calls, so that clients spread over "
-                 "replicas anew; its calls go on. 0: none is too old.")
+                 "Age at which a connection takes no new calls, so that clients spread over "
+                 "replicas again; its calls continue. 0: no limit.")
       ->envname("CHOREO_MAX_CONNECTION_SECONDS")
       ->capture_default_str();
 }
@@ -149,19 +143,19 @@ void AddSecurity(CLI::App& app, ServerConfig& config) {
   app.add_option("--tls-key", config.tls_key, "PEM file with the private key of --tls-cert.")
       ->envname("CHOREO_TLS_KEY");
   app.add_option("--tls-client-ca", config.tls_client_ca,
-                 "PEM file of authorities: clients must have a certificate of one of them.")
+                 "PEM file of authorities; clients need a certificate from one of them.")
       ->envname("CHOREO_TLS_CLIENT_CA");
-  app.add_option("--tokens", config.tokens,
-                 "File of lines \"SHA256 NAME\": who calls must send the token of one of them as "
-                 "\"authorization: Bearer TOKEN\". It is read again when it changes. Health needs "
-                 "none.")
+  app.add_option(
+         "--tokens", config.tokens,
+         "File of lines \"SHA256 NAME\". Calls must send the token of one line as \"authorization: "
+         "Bearer TOKEN\"; health checks need none. The file is read again when it changes.")
       ->envname("CHOREO_TOKENS");
   app.add_flag("--insecure", config.insecure,
-               "Listen beyond this machine without TLS, where everybody on the way can read and "
-               "change what is said: for networks that others secure.")
+               "Listen beyond this machine without TLS. Everybody on the way can then read and "
+               "change messages: only for networks that are secured otherwise.")
       ->envname("CHOREO_INSECURE");
   app.add_flag("--reflection,!--no-reflection", config.reflection,
-               "Tell clients what the API is (gRPC's reflection). On by default.")
+               "Describe the API to clients (gRPC's reflection). On by default.")
       ->envname("CHOREO_REFLECTION");
 }
 

@@ -90,7 +90,7 @@ class Figures {
 
  private:
   void AddCalls(const std::map<std::string, Models::Figures>& models, Families& out) const {
-    out.Begin("calls_total", "Calls that are over, by method and status.", MetricType::Counter);
+    out.Begin("calls_total", "Finished calls, by method and status.", MetricType::Counter);
     // Reports all series from the start, because Prometheus' rates miss a series' first value.
     const Tally::Calls counted = serving_.tally.calls();
     for (const char* method : kMethods) {
@@ -110,34 +110,33 @@ class Figures {
     for (const auto& [kind, seconds] : durations)
       out.Add(seconds, {{"method", kind.first}, {"status", NameOf(kind.second)}});
     out.Begin("refused_calls_total",
-              "Calls that were turned away, by what was lacking: room, a token, or a server that "
-              "goes on.",
+              "Refused calls, by reason: no room, no valid token, or a draining server.",
               MetricType::Counter);
     const Tally::Refusals refusals = serving_.tally.refusals();
     for (size_t i = 0; i < kRefusals.size(); ++i)
       out.Add(static_cast<double>(refusals[i]), {{"reason", kRefusals[i]}});
-    out.Begin("header_floods_total", "Connections that were ended because of endless headers.",
+    out.Begin("header_floods_total", "Connections closed because of endless headers.",
               MetricType::Counter);
     out.Add(static_cast<double>(HeaderFloods()));
     out.Begin("empty_frame_floods_total",
-              "Connections that were ended because of too many frames of little content, or calls.",
+              "Connections closed because of too many frames of little content, or too many calls.",
               MetricType::Counter);
     out.Add(static_cast<double>(EmptyFrameFloods()));
-    out.Begin("connections_total", "Connections that came, refused ones too.", MetricType::Counter);
+    out.Begin("connections_total", "Connections, including refused ones.", MetricType::Counter);
     out.Add(static_cast<double>(serving_.tally.connections));
     out.Begin("refused_connections_total",
-              "Connections that were closed at once, by what their address did.",
+              "Connections closed on arrival, by what their address had done.",
               MetricType::Counter);
     for (size_t i = 0; i < kConnectionRefusals.size(); ++i)
       out.Add(static_cast<double>(serving_.tally.refused_connections[i]),
               {{"reason", kConnectionRefusals[i]}});
     const CallRegistry& calls = serving_.calls;
-    out.Begin("draining", "1 once the server is shutting down, 0 before.", MetricType::Gauge);
+    out.Begin("draining", "1 once the server is draining, 0 before.", MetricType::Gauge);
     out.Add(calls.admitting() ? 0 : 1);
     out.Begin("streams", "Calls in progress that have sent their first message.",
               MetricType::Gauge);
     out.Add(calls.count());
-    out.Begin("streams_limit", "Calls that may be in progress.", MetricType::Gauge);
+    out.Begin("streams_limit", "Most calls that may be in progress.", MetricType::Gauge);
     out.Add(calls.limits().calls);
     out.Begin("utilisation",
               "The fullest of all limits: calls, load, candidates, music files, and the busiest "
@@ -148,21 +147,20 @@ class Figures {
     for (const auto& [model, figures] : models)
       fullest = std::max(fullest, figures.stats.bulk_share);
     out.Add(fullest);
-    out.Begin("sent_frames_total", "Frames made for calls that are over.", MetricType::Counter);
+    out.Begin("sent_frames_total", "Frames of finished calls.", MetricType::Counter);
     out.Add(static_cast<double>(serving_.tally.frames));
     out.Begin("dances_resumed_total",
-              "Dances that had begun in an earlier call, mostly of a server that was lost.",
-              MetricType::Counter);
+              "Dances resumed from an earlier call, mostly of a lost server.", MetricType::Counter);
     out.Add(static_cast<double>(serving_.tally.dances_resumed));
-    out.Begin("first_frame_seconds", "From a call's begin to its first frame.",
+    out.Begin("first_frame_seconds", "Time from a call's start to its first frame.",
               MetricType::Histogram);
     out.Add(serving_.tally.first_frame_s.snapshot());
-    out.Begin("sending_lateness_seconds",
-              "How late dances' frames went out to a client that plays them, beyond how late they "
-              "were made.",
-              MetricType::Histogram);
+    out.Begin(
+        "sending_lateness_seconds",
+        "Lateness of sending frames to a client that plays them, beyond the lateness of sampling.",
+        MetricType::Histogram);
     out.Add(serving_.tally.sending_lateness_s.snapshot());
-    out.Begin("key_error_metres", "How far the model's own frames were off their keys.",
+    out.Begin("key_error_metres", "Distance of the model's own frames from their keys.",
               MetricType::Histogram);
     out.Add(serving_.tally.key_error_m.snapshot());
     out.Begin("support_ratio", "Share of a dance's frames in which something supports the body.",
@@ -188,10 +186,9 @@ class Figures {
           caller.holder = holder;
           return serving_.calls.CountOf(caller.Party());
         });
-    add("holder_calls_total", "Calls that danced, or failed, of a token's holder.",
+    add("holder_calls_total", "Calls of a token's holder that danced or failed.",
         MetricType::Counter, [&](const std::string& holder) { return tally.SumOf(holder).served; });
-    add("holder_refused_calls_total", "Calls that were turned away, of a token's holder.",
-        MetricType::Counter,
+    add("holder_refused_calls_total", "Refused calls of a token's holder.", MetricType::Counter,
         [&](const std::string& holder) { return tally.SumOf(holder).refused; });
   }
 
@@ -208,8 +205,7 @@ class Figures {
                     {"version", CHOREO_VERSION}});
       }
     }
-    out.Begin("load",
-              "Share of the cores' and engines' time that is promised to calls in progress.",
+    out.Begin("load", "Share of the cores' and engines' time that calls in progress may need.",
               MetricType::Gauge);
     std::map<std::string, double> loads = serving_.frames.loads();
     for (const auto& [model, figures] : models) out.Add(loads[model], {{"model", model}});
@@ -221,13 +217,13 @@ class Figures {
     };
     using Stats = SampleQueue::Stats;
     static constexpr Figure kFigures[] = {
-        {"workers", "Workers that make transitions.", MetricType::Gauge,
+        {"workers", "Workers, each of which samples one transition at a time.", MetricType::Gauge,
          [](const Stats& stats) { return double(stats.workers); }},
-        {"transitions_active", "Transitions that a worker has begun.", MetricType::Gauge,
+        {"transitions_active", "Transitions in progress.", MetricType::Gauge,
          [](const Stats& stats) { return double(stats.active); }},
-        {"transitions_waiting", "Transitions that no worker has begun.", MetricType::Gauge,
+        {"transitions_waiting", "Transitions that wait for a worker.", MetricType::Gauge,
          [](const Stats& stats) { return double(stats.waiting); }},
-        {"engine_failures", "How often an engine has failed in a row.", MetricType::Gauge,
+        {"engine_failures", "Consecutive failures of an engine.", MetricType::Gauge,
          [](const Stats& stats) { return double(stats.failures); }},
         {"frames_total", "Frames made.", MetricType::Counter,
          [](const Stats& stats) { return double(stats.frames); }},
@@ -244,24 +240,24 @@ class Figures {
 
   void AddReloads(Families& out) const {
     const Reloads::States states = serving_.reloads.states();
-    out.Begin("last_reload_successful",
-              "1 unless the latest change of what is reread was bad, wholly or in part.",
+    out.Begin("last_reload_successful", "1 if the last reload succeeded completely, else 0.",
               MetricType::Gauge);
     for (size_t i = 0; i < states.size(); ++i)
       out.Add(states[i].good ? 1 : 0, {{"of", Reloads::kNames[i]}});
     out.Begin("last_reload_success_timestamp_seconds",
-              "When it was read without a fault for the last time, since 1970.", MetricType::Gauge);
+              "Time of the last complete reload, seconds since 1970.", MetricType::Gauge);
     for (size_t i = 0; i < states.size(); ++i)
       out.Add(states[i].succeeded_at, {{"of", Reloads::kNames[i]}});
     const double expires = serving_.reloads.certificate_expires;
     if (expires == 0) return;
     out.Begin("certificate_expiry_timestamp_seconds",
-              "When the certificate in use, or one of its chain, expires, since 1970.",
+              "Time when the certificate in use, or one of its chain, expires, seconds since 1970.",
               MetricType::Gauge);
     out.Add(expires);
     if (const double of_clients = serving_.reloads.client_ca_expires; of_clients > 0) {
       out.Begin("client_ca_expiry_timestamp_seconds",
-                "When the last of --tls-client-ca expires, since 1970.", MetricType::Gauge);
+                "Time when the last certificate of --tls-client-ca expires, seconds since 1970.",
+                MetricType::Gauge);
       out.Add(of_clients);
     }
     out.Begin("tls_handshake_failures_total", "TLS handshakes that failed, by reason.",
@@ -279,11 +275,11 @@ class Figures {
       Histogram::Snapshot Histograms::*of;
     };
     static constexpr Figure kFigures[] = {
-        {"slice_seconds", "Time of a slice of a transition, for which all else waits.",
+        {"slice_seconds", "Time of one slice of a transition, for which other work waits.",
          &Histograms::slice_s},
         {"transition_seconds", "Time of a transition, all of its slices.",
          &Histograms::transition_s},
-        {"lateness_seconds", "How late transitions of dances were made, 0 for those in time.",
+        {"lateness_seconds", "Lateness of sampling a dance's transitions, 0 if in time.",
          &Histograms::lateness_s},
     };
     for (const Figure& figure : kFigures) {
@@ -302,15 +298,15 @@ class Figures {
     rlimit descriptors{};
     getrlimit(RLIMIT_NOFILE, &descriptors);
     out.SetPrefix("process_");
-    out.Begin("cpu_seconds_total", "CPU time that was used.", MetricType::Counter);
+    out.Begin("cpu_seconds_total", "CPU time used.", MetricType::Counter);
     out.Add(CpuSeconds(self));
     const std::tuple<const char*, const char*, double> gauges[] = {
-        {"resident_memory_bytes", "Memory that is resident.", double(ResidentBytes(self))},
-        {"virtual_memory_bytes", "Memory that is mapped.", double(VirtualBytes(self))},
-        {"open_fds", "Descriptors that are open.", double(Descriptors(self))},
-        {"max_fds", "Descriptors that may be open.", double(descriptors.rlim_cur)},
+        {"resident_memory_bytes", "Resident memory.", double(ResidentBytes(self))},
+        {"virtual_memory_bytes", "Virtual memory.", double(VirtualBytes(self))},
+        {"open_fds", "Open file descriptors.", double(Descriptors(self))},
+        {"max_fds", "Most file descriptors that may be open.", double(descriptors.rlim_cur)},
         {"threads", "Threads.", double(Threads(self))},
-        {"start_time_seconds", "When it began, since 1970.", start},
+        {"start_time_seconds", "Start time of the process, seconds since 1970.", start},
     };
     for (const auto& [name, help, value] : gauges) {
       out.Begin(name, help, MetricType::Gauge);

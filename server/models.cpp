@@ -96,8 +96,8 @@ void Models::FreeUnused() {
     last.stats.workers = last.stats.failures = 0;
     last.stats.bulk_share = 0;
     AddTo(past_, at->name(), last);
-    spdlog::info("model \"{}\", fingerprint {}: nobody dances it any more; it is gone", at->name(),
-                 at->queue->model().fingerprint);
+    spdlog::info("model \"{}\", fingerprint {}: no dance uses it any more; it is unloaded",
+                 at->name(), at->queue->model().fingerprint);
     ended.push_back(std::move(*at));
     at = former_.erase(at);
   }

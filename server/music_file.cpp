@@ -12,10 +12,10 @@ namespace choreo {
 void MusicBudget::Take(int64_t bytes) {
   const std::lock_guard lock(mutex_);
   if (bytes > bytes_ - taken_) {
-    throw Refused(Refusal::kFileMusic, "the server is full: music files on their way hold " +
+    throw Refused(Refusal::kFileMusic, "the server is full: incomplete music files hold " +
                                            std::to_string(taken_) + " bytes, this one needs " +
                                            std::to_string(bytes) + " more, at most " +
-                                           std::to_string(bytes_) + " are there for all");
+                                           std::to_string(bytes_) + " are allowed in all");
   }
   taken_ += bytes;
 }

@@ -18,7 +18,7 @@ using google::protobuf::FieldDescriptor;
 using google::protobuf::io::CodedInputStream;
 
 Error Malformed(const Descriptor& type) {
-  return InvalidArgument("request", "the bytes are no " + type.full_name());
+  return InvalidArgument("request", "the bytes are not a " + type.full_name());
 }
 
 /// Counts the elements of a serialised message without parsing it into memory.

@@ -124,7 +124,7 @@ ValidGroup ToGroupRequest(const v1::GenerateTransitionRequest& message, const Mo
       break;
     default:
       throw InvalidArgument("rank_by",
-                            std::to_string(message.rank_by()) + " is no RankBy; 0 to 2 are");
+                            std::to_string(message.rank_by()) + " is not a RankBy; 0 to 2 are");
   }
   if (message.has_target()) {
     request.target = wire::ToTarget(message.target(),

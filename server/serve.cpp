@@ -53,7 +53,7 @@ class LeaveAtOnce {
           while (!stop.stop_requested()) {
             const int signal = sigtimedwait(&asked, nullptr, &kLook);
             if (signal <= 0) continue;
-            spdlog::info("{}: leaves at once", strsignal(signal));
+            spdlog::info("{}: exits immediately", strsignal(signal));
             if (last) last();
             Leave();
           }
@@ -136,7 +136,7 @@ void Serve(const ServerConfig& config, const ModelFolder::Loader& load,
   while (sigwait(&heard, &signal) == 0 && signal == SIGHUP) reloader.Request();
   reloader.Stop();
   const double drain_seconds = reloader.drain_seconds();
-  spdlog::info("{}: draining for up to {} s; again to leave at once", strsignal(signal),
+  spdlog::info("{}: draining for up to {} s; again to exit immediately", strsignal(signal),
                drain_seconds);
   TellManager("STOPPING=1\nSTATUS=drains for up to " + std::to_string(drain_seconds) + " s");
   {

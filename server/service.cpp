@@ -85,9 +85,9 @@ grpc::ServerUnaryReactor* ChoreographyService::GetServerInfo(
     refusal = Refusal::kToken;
   } else if (!reactor->within()) {
     refusal = Refusal::kUnreadInfos;
-    status = ToStatus(Refused(
-        *refusal, std::to_string(kMaxUnreadInfos) +
-                      " answers wait for your address to read them, the most there may be"));
+    status = ToStatus(
+        Refused(*refusal, std::to_string(kMaxUnreadInfos) +
+                              " answers wait to be read by your address, the most allowed"));
   }
   if (status.ok()) Describe(response);
   if (request->without_cards()) {

@@ -122,7 +122,7 @@ class DanceSession final : public CallSession<DanceResponse, DanceStream>,
 
   void Take(const DanceRequest& request) {
     if (request.request_case() == DanceRequest::REQUEST_NOT_SET) {
-      throw InvalidArgument("request", "empty; one of its fields must be there");
+      throw InvalidArgument("request", "empty; one of its fields must be set");
     }
     if (request.has_config()) return Configure(request.config());
     if (!queue_) throw InvalidArgument("config", "missing: it must be the first message");
@@ -174,7 +174,7 @@ class DanceSession final : public CallSession<DanceResponse, DanceStream>,
   }
 
   void Configure(const v1::DanceConfig& message) {
-    if (queue_) throw InvalidArgument("config", "came before; it comes once");
+    if (queue_) throw InvalidArgument("config", "came before; it may come only once");
     const Models::Use found = serving_.models.Find(message.model(), "config.model");
     const ModelInfo& model = found->model();
     const ValidDance config = ToDanceConfig(message, model, Serving::FreshSeed());

@@ -114,7 +114,7 @@ grpc::Status Tokens::FindHolder(std::string_view authorization, std::string* hol
   if (authorization.empty()) return SendToken("a token is needed");
   const size_t scheme = authorization.find(' ');
   if (scheme == authorization.npos || !IsBearer(authorization.substr(0, scheme))) {
-    return SendToken("that is no bearer token");
+    return SendToken("that is not a bearer token");
   }
   authorization.remove_prefix(
       std::min(authorization.find_first_not_of(' ', scheme), authorization.size()));
@@ -129,7 +129,7 @@ grpc::Status Tokens::FindHolder(std::string_view authorization, std::string* hol
   }
   if (found == nullptr) {
     WarnOfRawToken(authorization, *all);
-    return SendToken("nobody here has that token");
+    return SendToken("that token is unknown");
   }
   *holder = found->name;
   if (hash_of_it != nullptr) *hash_of_it = hash;
@@ -166,7 +166,7 @@ std::optional<bool> Tokens::Refresh() {
     if (!text_) return std::nullopt;  // logged before
     text_.reset();
     Close();
-    spdlog::error("{}; nobody is let in until it can be read", error.what());
+    spdlog::error("{}; no call is accepted until it can be read", error.what());
     return false;
   }
   if (text_ == text) {
@@ -189,7 +189,7 @@ std::optional<bool> Tokens::Refresh() {
   }
   if (!all_good) spdlog::error("{}; the other lines count", BadLines(content.bad_lines).what());
   if (is_empty) {
-    spdlog::warn("{}; nobody is let in until it has one", NoTokens().what());
+    spdlog::warn("{}; no call is accepted until it has one", NoTokens().what());
   } else {
     spdlog::info("{} tokens are known now", content.holders.size());
   }

@@ -100,7 +100,7 @@ std::vector<float> SamplesOf(const v1::Audio& audio) {
   const std::string& bytes = audio.data();
   if (bytes.size() % sizeof(float) != 0)
     throw InvalidArgument("audio.data",
-                          std::to_string(bytes.size()) + " bytes are no whole floats");
+                          std::to_string(bytes.size()) + " bytes are not whole floats");
   std::vector<float> samples(bytes.size() / sizeof(float));
   std::memcpy(samples.data(), bytes.data(), bytes.size());
   return samples;

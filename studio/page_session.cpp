@@ -248,7 +248,7 @@ void PageSession::Do(const Request& request) {
     case Request::kCompany:
       return Answer(call, FormCompany(context_, request.company()));
     default:
-      throw InvalidArgument("request", "is none that this studio knows");
+      throw InvalidArgument("request", "is not known to this studio");
   }
 }
 

@@ -152,7 +152,7 @@ ProjectCalls::Reply ProjectCalls::Danced(const std::string& text, bool as_bvh) c
   if (project.seconds && *project.seconds > context_.most_seconds()) {
     throw InvalidArgument(std::string(kUnnamed) + ":seconds",
                           Rounded(*project.seconds) + " is beyond " +
-                              Rounded(context_.most_seconds()) + ", the most that is danced");
+                              Rounded(context_.most_seconds()) + ", the longest allowed");
   }
   double seconds = project.seconds.value_or(context_.most_seconds());
   if (song) seconds = std::min(seconds, song->heard.seconds());
@@ -164,11 +164,10 @@ ProjectCalls::Reply ProjectCalls::Danced(const std::string& text, bool as_bvh) c
   if (song && model.takes_music) audio = authoring::AudioFor(song->music.audio, seconds);
   client::DanceResult dance;
   try {
-    dance = context_.client().Dance(requested.config, requested.keys.poses, audio,
-                                    [this](const client::Message&) {
-                                      if (ends_)
-                                        throw Error(ErrorCode::kCancelled, "", "the studio closes");
-                                    });
+    dance = context_.client().Dance(
+        requested.config, requested.keys.poses, audio, [this](const client::Message&) {
+          if (ends_) throw Error(ErrorCode::kCancelled, "", "the studio is closing");
+        });
   } catch (const Error& error) {
     throw requested.InTermsOf(error);
   }

@@ -143,8 +143,9 @@ void AddSettings(const authoring::Project& read, const std::string& name,
   }
   const auto& velocity = controls.velocity_factors;
   if (velocity && !(velocity->frames.empty() && velocity->speeds.empty())) {
-    throw InvalidArgument(read.controls.PlaceOf("velocity_factors", ""),
-                          "changes, or is in metres: the studio's are factors of all the dance");
+    throw InvalidArgument(
+        read.controls.PlaceOf("velocity_factors", ""),
+        "changes, or is in metres: in the studio a factor is for the whole dance");
   }
   *out->mutable_controls() = wire::ToProto(controls);
   for (const authoring::Marker& marker : read.markers) {

@@ -62,7 +62,7 @@ void ServerSupervisor::Supervise(const std::filesystem::path& program,
         process_ = server->process();
       }
     } catch (const Error& error) {
-      std::cerr << "choreo: " << error.what() << "; it is started again" << std::endl;
+      std::cerr << "choreo: " << error.what() << "; restarting it" << std::endl;
       if (!server) wait = kPause;
       server.reset();
     }

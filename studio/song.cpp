@@ -41,8 +41,8 @@ Song HearSong(const std::filesystem::path& path, const std::string& name, double
   }
   const double seconds = song.music.audio.seconds();
   if (seconds > most_seconds)
-    throw InvalidArgument(
-        name, "is longer than " + Rounded(most_seconds) + " s, the most that is danced to");
+    throw InvalidArgument(name,
+                          "is longer than " + Rounded(most_seconds) + " s, the longest allowed");
   song.audio = authoring::AudioFor(song.music.audio, seconds);
   const std::vector<double> beats = song.music.track.Seconds();
   song.heard.set_seconds(seconds);

@@ -108,7 +108,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
     beast::error_code error;
     const bool is_near = stream_.socket().remote_endpoint(error).address().is_loopback();
     if (error || !is_near)
-      return Say(ProjectCalls::Refuse(403, "projects are danced for this machine alone"));
+      return Say(ProjectCalls::Refuse(403, "only this machine may dance projects"));
     if (request_.method() != http::verb::post)
       return Say(ProjectCalls::Refuse(405, "POST a project"));
     // Pages from elsewhere cannot send this type without a preflight.

@@ -52,12 +52,13 @@ BeatLine ParseBeat(const std::string& line, const std::string& field) {
   if (!rest.empty() || !read(second, &beat.second) || !(beat.second >= 0) ||
       beat.second > kMaxSongSeconds) {
     throw InvalidArgument(field, '"' + Printable(line) +
-                                     "\" is no beat: a second of the song, as in 12.5, and, where "
-                                     "it is known, its count in the bar");
+                                     "\" is not a beat: a second of the song, as in 12.5, and, if "
+                                     "known, its count in the bar");
   }
   if (!count.empty() &&
       (!read(count, &beat.count) || beat.count < 1 || beat.count > kMaxBeatsInBar)) {
-    throw InvalidArgument(field, '"' + Printable(count) + "\" is no count in a bar, must be 1 to " +
+    throw InvalidArgument(field, '"' + Printable(count) +
+                                     "\" is not a count in a bar, must be 1 to " +
                                      std::to_string(kMaxBeatsInBar));
   }
   return beat;
@@ -73,7 +74,7 @@ BeatTrack ReadBeats(const std::string& path, double start) {
   std::string line(kMaxLineLength, '\0');
   for (int number = 1; file.getline(line.data(), kMaxLineLength) || file.gcount() > 0; ++number) {
     const std::string field = path + ":" + std::to_string(number);
-    if (file.fail()) throw InvalidArgument(field, "is no line of a beat: it is too long");
+    if (file.fail()) throw InvalidArgument(field, "is too long for the line of a beat");
     std::string text = line.c_str();
     if (number == 1 && text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);
     text = text.substr(0, text.find('#'));
@@ -126,7 +127,7 @@ void WarnOfTempo(std::span<const Onset> onsets, double asked_bpm, double found_b
   const auto whole = [](double bpm) { return std::to_string(std::lround(bpm)); };
   const BeatTrack heard = TrackBeats(onsets);
   if (heard.tempo_bpm > 0 && !HasTempo(heard.Seconds(), asked_bpm)) {
-    warning = " is far from what is heard, " + whole(heard.tempo_bpm) + " beats a minute";
+    warning = " is far from the tempo heard, " + whole(heard.tempo_bpm) + " beats a minute";
   }
   const bool followed = std::ranges::any_of(std::array{0.5, 1.0, 2.0}, [&](double times) {
     return IsNear(found_bpm, times * asked_bpm);
@@ -185,9 +186,10 @@ BeatTrack BeatsAsAsked(std::span<const Onset> onsets, double start, const BeatOp
                         : ReadBeats(*options.beats, start);
   const double end = static_cast<double>(onsets.size()) / kOnsetRate;
   if (options.downbeat_s && *options.downbeat_s - start > end) {
-    throw InvalidArgument("downbeat", InFull(*options.downbeat_s) +
-                                          " s is after what is heard of the song, its first " +
-                                          Rounded(start + end) + " s");
+    throw InvalidArgument("downbeat",
+                          InFull(*options.downbeat_s) +
+                              " s is after the part of the song that is heard, its first " +
+                              Rounded(start + end) + " s");
   }
   // Drops beats after the song's end.
   while (!track.frames.empty() && track.frames.back() > std::ssize(onsets)) {
@@ -198,7 +200,8 @@ BeatTrack BeatsAsAsked(std::span<const Onset> onsets, double start, const BeatOp
   if (track.frames.empty()) {
     if (!options.FindsThem()) {
       throw InvalidArgument(
-          "beats", *options.beats + " has no beat within what is heard of the song, its first " +
+          "beats", *options.beats +
+                       " has no beat within the part of the song that is heard, its first " +
                        Rounded(start + end) + " s; beats are in seconds");
     }
     if (options.hint.tempo_bpm)

@@ -62,7 +62,7 @@ void ReadControlJson(const Json& json, const std::string& field, Control* contro
   is_whole = is_whole && control->IsWhole() &&
              std::ranges::adjacent_find(control->frames, std::ranges::greater_equal()) ==
                  control->frames.end();
-  if (!is_whole) throw InvalidArgument(field, "is not what the API's message has");
+  if (!is_whole) throw InvalidArgument(field, "does not fit the API's message");
 }
 
 }  // namespace choreo::authoring

@@ -81,7 +81,8 @@ void RequireApart(const DanceKeys& keys, double fps) {
 bool IsNoKeys(const std::vector<std::string>& sources) {
   const bool none = std::ranges::find(sources, kNoKeys) != sources.end();
   if (none && sources.size() > 1)
-    throw InvalidArgument("keyframes", "none stands beside " + sources[sources[0] == kNoKeys]);
+    throw InvalidArgument("keyframes",
+                          "none cannot be combined with " + sources[sources[0] == kNoKeys]);
   return none;
 }
 

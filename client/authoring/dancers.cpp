@@ -42,7 +42,7 @@ std::string IdOf(const json& value, const std::string& field) {
 
 Eigen::Vector2d PlaceOf(const json& value, const std::string& field) {
   if (!value.is_array() || value.size() != 2)
-    throw InvalidArgument(field, Shown(value) + " is no place: [x, z] in metres");
+    throw InvalidArgument(field, Shown(value) + " is not a place: [x, z] in metres");
   return {NumberIn(value[0], field + "[0]", -kMaxStageRadius, kMaxStageRadius),
           NumberIn(value[1], field + "[1]", -kMaxStageRadius, kMaxStageRadius)};
 }
@@ -85,7 +85,7 @@ Dancer ReadDancer(const json& value, const std::string& field, size_t number,
   if (value.contains("seed")) {
     if (!value["seed"].is_number_unsigned()) {
       throw InvalidArgument(field + ".seed",
-                            Shown(value["seed"]) + " is no whole number from 0 on");
+                            Shown(value["seed"]) + " is not a whole number from 0 on");
     }
     dancer.seed = value["seed"];
   }

@@ -116,7 +116,8 @@ std::optional<DecodedAudio> DecodeByFfmpeg(const std::filesystem::path& path, do
     // ffmpeg cannot write the WAV's length into a pipe.
     audio.notes = {"read by ffmpeg"};
     if (!report.error.empty()) {
-      audio.notes.push_back("ffmpeg finds it damaged, what is read may be a part: " + report.error);
+      audio.notes.push_back("ffmpeg reports damage, so only a part may have been read: " +
+                            report.error);
     }
     if (report.tracks > 1) {
       audio.notes.push_back("has " + std::to_string(report.tracks) +

@@ -61,8 +61,7 @@ int64_t FramesLater(const std::optional<WrittenTime>& after, std::span<const dou
   const double seconds = after->After(from, {{beats.begin(), beats.end()}}, field) - from;
   const int64_t later = std::llround(seconds * fps);
   if (later < frames) return later;
-  throw InvalidArgument(field,
-                        InFull(seconds) + " s later she would not dance: all is over before");
+  throw InvalidArgument(field, InFull(seconds) + " s later is after the end of the dance");
 }
 
 client::FinishedDance OnStage(const Skeleton& skeleton, const Dancer& dancer,

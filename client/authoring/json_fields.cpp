@@ -97,9 +97,9 @@ std::string DescribeBreak(std::string_view text, size_t byte) {
   if (byte > 0 && byte <= text.size() && (text[byte - 1] == '}' || text[byte - 1] == ']')) {
     const size_t before = text.substr(0, byte - 1).find_last_not_of(" \t\r\n");
     if (before != std::string_view::npos && text[before] == ',')
-      return "it has a comma too many at " + At(text, before + 1);
+      return "has an extra comma at " + At(text, before + 1);
   }
-  return "it breaks off at " + At(text, byte) + WordAt(text, byte);
+  return "ends too early at " + At(text, byte) + WordAt(text, byte);
 }
 
 void RefuseOthers(const json& object, const std::string& prefix,
@@ -203,9 +203,8 @@ WrittenTime JsonTime(const json& value, const std::string& field) {
 
 Moment ParseMoment(const json& value, const std::string& field, const Counts& counts) {
   if (value.contains("time") == value.contains("frame")) {
-    throw InvalidArgument(field + ".time", value.contains("time")
-                                               ? "stands beside frame; only one may be there"
-                                               : "is missing, and so is frame");
+    throw InvalidArgument(field + ".time", value.contains("time") ? "cannot be combined with frame"
+                                                                  : "is missing, and so is frame");
   }
   Moment moment;
   if (value.contains("frame")) {

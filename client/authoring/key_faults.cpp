@@ -65,8 +65,8 @@ void RefuseBends(const DanceKeys& keys, const Skeleton& skeleton) {
     const client::KeyPose& key = keys.poses[i];
     const std::vector<std::string> faults = BendFaults(skeleton, key.pose, key.mask);
     if (faults.empty()) continue;
-    throw InvalidArgument(keys.places[i], "key \"" + key.id + "\": " + faults.front() +
-                                              "; with --allow-bends it is danced all the same");
+    throw InvalidArgument(
+        keys.places[i], "key \"" + key.id + "\": " + faults.front() + "; --allow-bends accepts it");
   }
 }
 

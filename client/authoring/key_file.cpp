@@ -172,7 +172,7 @@ std::vector<KeyPose> KeysIn(const json& file, const std::string& name, const Ske
     keys.push_back(ParseKey(list[i], field, skeleton, counts, i + 1));
     if (!ids.insert(keys.back().id).second) {
       throw InvalidArgument(field + ".id",
-                            "\"" + keys.back().id + "\" stands for an earlier key already");
+                            "\"" + keys.back().id + "\" is already the id of an earlier key");
     }
     if (list[i].contains("hold")) {
       if (!list[i].contains("time")) throw InvalidArgument(field + kHold, "goes with time");
@@ -222,8 +222,8 @@ std::vector<KeyPose> ReadKeys(const std::string& source, const Skeleton& skeleto
   const auto is_it = [&](const LibraryPose& pose) { return pose.id == source; };
   if (!std::filesystem::exists(file) && std::ranges::any_of(PoseLibrary(), is_it)) {
     throw InvalidArgument(source,
-                          "is a pose of the library and no file: a key file says when it comes, "
-                          "or choreo edit --key sets it in a dance");
+                          "is a pose of the library, not a file: a key file says when it comes, or "
+                          "choreo edit --key sets it in a dance");
   }
   if (!IsMotionFile(file)) {
     std::vector<KeyPose> keys =
@@ -232,8 +232,8 @@ std::vector<KeyPose> ReadKeys(const std::string& source, const Skeleton& skeleto
     return keys;
   }
   if (!chooses) {
-    throw InvalidArgument(source,
-                          "is a motion: say which poses of it, as in " + source + "@1.2,3.4");
+    throw InvalidArgument(
+        source, "is a motion: name its poses by their seconds, as in " + source + "@1.2,3.4");
   }
   std::vector<KeyPose> keys = ReadMotionKeys(file, chosen, source, skeleton, counts);
   places->clear();

@@ -123,7 +123,7 @@ bool HasNumbers(const json& value) {
 void RefuseNumbers(const json& value, const std::string& field) {
   for (const char* member : kPoseMembers) {
     if (!value.contains(member)) continue;
-    throw InvalidArgument(field + "." + member, "stands beside pose; only one may be there");
+    throw InvalidArgument(field + "." + member, "cannot be combined with pose");
   }
 }
 

@@ -58,7 +58,7 @@ LocalServer::LocalServer(const std::filesystem::path& program, const std::string
     : program_(program) {
   if (access(program.c_str(), X_OK) != 0) {
     throw Error(ErrorCode::kNotFound, program.string(),
-                "is not there to be started; name a server with --server");
+                "does not exist, so no server can be started; name one with --server");
   }
   int ends[2];
   if (pipe2(ends, O_CLOEXEC) != 0)
@@ -84,7 +84,7 @@ void LocalServer::RequireRunning() {
   const std::string how = WIFSIGNALED(status) ? std::string(strsignal(WTERMSIG(status)))
                                               : "exit code " + std::to_string(WEXITSTATUS(status));
   throw Error(ErrorCode::kUnavailable, program_,
-              "the server that was started for this is gone (" + how + ")");
+              "the server of this command has ended (" + how + ")");
 }
 
 std::string LocalServer::ReadAddress(int from) {

@@ -39,7 +39,7 @@ const json& LandmarkList(const json& file, const std::string& name) {
        {"landmarks", "worldLandmarks", "poseWorldLandmarks", "pose_world_landmarks"}) {
     if (file.is_object() && file.contains(member)) return ListIn(file, name, member);
   }
-  throw InvalidArgument(name + ":landmarks", "is missing, and the file is no list");
+  throw InvalidArgument(name + ":landmarks", "is missing, and the file is not a list");
 }
 
 /// The arrays of an SMPL file, by name.
@@ -98,7 +98,7 @@ std::vector<Eigen::Matrix3d> Rotations(const std::vector<double>& numbers, int l
           Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(&numbers[9 * joint]);
       const double off = (m * m.transpose() - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
       if (!(off < kNearlyRotation && m.determinant() > 0))
-        throw InvalidArgument(where, "is no rotation matrix");
+        throw InvalidArgument(where, "is not a rotation matrix");
       out.push_back(m);
     } else {
       const Eigen::Vector3d vector(&numbers[3 * joint]);
@@ -143,7 +143,7 @@ Pose ParseLandmarkPose(std::string_view text, const std::string& name, const Ske
   std::vector<double> visibilities(count, 1.0);
   for (size_t i = 0; i < count; ++i) {
     const std::string field = name + ":landmarks[" + std::to_string(i) + "]";
-    if (!list[i].is_object()) throw InvalidArgument(field, Shown(list[i]) + " is no landmark");
+    if (!list[i].is_object()) throw InvalidArgument(field, Shown(list[i]) + " is not a landmark");
     for (int axis = 0; axis < 3; ++axis) {
       const std::string member(1, "xyz"[axis]);
       if (!list[i].contains(member)) throw InvalidArgument(field + "." + member, "is missing");
@@ -154,7 +154,7 @@ Pose ParseLandmarkPose(std::string_view text, const std::string& name, const Ske
       visibilities[i] = Within(list[i]["visibility"], field + ".visibility", 0, 1);
   }
   if ((places.colwise() - places.col(0)).norm() < 0.1)
-    throw InvalidArgument(name + ":landmarks", "all stand in one place");
+    throw InvalidArgument(name + ":landmarks", "are all in one place");
   return FitMediaPipe(places, visibilities, skeleton);
 }
 

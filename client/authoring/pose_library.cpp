@@ -48,8 +48,7 @@ std::vector<LibraryPose> PosesFor(const Skeleton& skeleton) {
     for (LibraryPose& pose : poses) pose.pose = Retarget(Skeleton::Smpl24(), pose.pose, skeleton);
   } catch (const Error& error) {
     throw InvalidArgument("keyframes",
-                          "key poses are needed: those that ship can't be turned "
-                          "into poses of the model (" +
+                          "key poses are needed: those of the library do not fit the model (" +
                               std::string(error.what()) + ")");
   }
   return poses;
@@ -69,7 +68,7 @@ const LibraryPose& FindLibraryPose(const std::string& id) {
                                   [&](const LibraryPose& pose) { return pose.id == id; });
   if (found != poses.end()) return *found;
   throw Error(ErrorCode::kNotFound, id,
-              "is no pose of the library; " + DidYouMean(id, poses, &LibraryPose::id));
+              "is not a pose of the library; " + DidYouMean(id, poses, &LibraryPose::id));
 }
 
 }  // namespace choreo::authoring

@@ -47,7 +47,7 @@ void ReadBeats(const json& list, const std::string& field, Project* project) {
   for (const json& beat : list) {
     const std::string at = field + "[" + std::to_string(out.size()) + "]";
     if (!beat.is_array() || beat.size() != 2 || !IsCount(beat[1])) {
-      throw InvalidArgument(at, Shown(beat) + " is no beat: its second and its count, 1 to " +
+      throw InvalidArgument(at, Shown(beat) + " is not a beat: its second and its count, 1 to " +
                                     std::to_string(kMaxBeatsInBar) + ", as in [12.5, 1]");
     }
     out.push_back(JsonNumber(beat[0], at));
@@ -186,11 +186,12 @@ Project ParseProject(const json& file, const std::string& name, std::span<const 
   }
   if (file.contains("seed")) {
     if (!file["seed"].is_number_unsigned())
-      throw InvalidArgument(name + ":seed", Shown(file["seed"]) + " is no whole number from 0 on");
+      throw InvalidArgument(name + ":seed",
+                            Shown(file["seed"]) + " is not a whole number from 0 on");
     project.seed = file["seed"].get<uint64_t>();
   }
   if (file.contains("bar") && !IsCount(file["bar"])) {
-    throw InvalidArgument(name + ":bar", Shown(file["bar"]) + " is no whole number from 1 to " +
+    throw InvalidArgument(name + ":bar", Shown(file["bar"]) + " is not a whole number from 1 to " +
                                              std::to_string(kMaxBeatsInBar));
   }
   project.bar = file.value("bar", kDefaultBar);

@@ -89,7 +89,7 @@ class RequestedVelocities {
     const bool speeds = file.contains("speeds");
     const std::string list_name = speeds ? "speeds" : "factors";
     if (speeds && file.contains("factors"))
-      throw InvalidArgument(name + ":speeds", "stands beside factors; only one may be there");
+      throw InvalidArgument(name + ":speeds", "cannot be combined with factors");
     SetUnit(speeds, name);
     const nlohmann::json& points = ListIn(file, name, list_name);
     std::array<std::vector<double>, kBodyParts> read;
@@ -107,7 +107,7 @@ class RequestedVelocities {
         }
         for (const size_t part : parts) {
           if (read[part].size() > i)
-            throw InvalidArgument(field + "." + member, "names a part that is there already");
+            throw InvalidArgument(field + "." + member, "names a part twice");
           read[part].push_back(number);
         }
       }

@@ -85,7 +85,7 @@ void ReadWritten(const WrittenControl& written, double fps, const Counts& counts
   if (!project.is_null()) {
     ReadControlJson(project, name, velocity);
   } else if (sources.empty()) {
-    throw InvalidArgument("velocity_factors.reference", "there is no velocity that it could be of");
+    throw InvalidArgument("velocity_factors.reference", "needs a velocity");
   }
   if (!sources.empty() || !reference.empty())
     *velocity = ReadVelocities(sources, reference, fps, counts, *velocity);
@@ -114,8 +114,8 @@ void WrittenControls::RequireControl(const std::string& control,
   }
   throw InvalidArgument(PlaceOf(control, ""),
                         "the model \"" + model.name + "\" does not have this control, " +
-                            (others.empty() ? "nor has any other of the server"
-                                            : "but these of the server do: " + others));
+                            (others.empty() ? "and no other model of the server has it"
+                                            : "but these models of the server have it: " + others));
 }
 
 void WrittenControls::RequireBegun(const ControlRequest& controls,

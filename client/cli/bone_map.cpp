@@ -104,7 +104,7 @@ void SuggestBoneMap(const std::filesystem::path& out, const std::string& name, c
   WriteBoneMap(map, picture, upright, found);
   throw InvalidArgument(name, "its names do not say which bone is the " + missing + "; " +
                                   map.string() + " is a guess, " + picture.string() +
-                                  " a picture: mend the one by the other, then --map " +
+                                  " a picture: correct the guess with it, then --map " +
                                   map.string());
 }
 

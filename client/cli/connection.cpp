@@ -99,7 +99,7 @@ struct Connection::Failures {
     // Retries are at most seconds apart; later failures are another loss.
     const Clock::time_point before = std::exchange(noted[address], Clock::now());
     if (noted[address] - before <= kOfOneLoss) return;
-    std::cerr << "note: " << failure.Of(address).what() << "; servers are asked again for up to "
+    std::cerr << "note: " << failure.Of(address).what() << "; retrying for up to "
               << Rounded(retry_s) << " s\n";
   }
 
@@ -113,7 +113,7 @@ struct Connection::Failures {
 Connection::Connection(const ServerOptions& options, const std::optional<std::string>& model) {
   client::Options client_options = options.ForClient();
   if (options.addresses.empty()) {
-    std::cerr << "note: a server is started for this command alone, which takes seconds; to keep "
+    std::cerr << "note: starting a server for this command alone, which takes seconds; to keep "
                  "one: choreo serve, and CHOREO_SERVER="
               << client_options.addresses.front() << " for commands\n";
     own_ = authoring::LocalServer::Start(!model           ? std::string()

@@ -68,7 +68,7 @@ struct MemberReader {
       return true;
     } catch (const nlohmann::json::exception&) {
       throw InvalidArgument(place + member,
-                            authoring::Shown(report[member]) + " is not what a report says there");
+                            authoring::Shown(report[member]) + " is not valid in a report");
     }
   }
   template <typename Value>
@@ -229,11 +229,10 @@ void CheckSketch(const std::filesystem::path& path, const DanceReport& report, c
       std::to_string(unlike) + " of " + std::to_string(known.size()) + " moments";
   if (2 * unlike > known.size()) {
     throw InvalidArgument(path.string(),
-                          "is another dance's report: this one looks otherwise at " + moments);
+                          "is the report of another dance, which differs at " + moments);
   }
-  std::cerr << "note: the dance looks otherwise than " << path.string() << " says at " << moments
-            << ": it was edited since, and what those edits set is not known; their --new-report "
-               "tells\n";
+  std::cerr << "note: the dance differs from " << path.string() << " says at " << moments
+            << ": it has been edited since; the --new-report of the last edit names all keys\n";
 }
 
 ReportKeys Moved(ReportKeys keys, int64_t frames, std::optional<int64_t> in_file) {

@@ -33,7 +33,7 @@ bool DanceSettings::FillSong(const std::filesystem::path& report, bool says_star
     *to = FindSong(song, report);
     if (to->empty()) {
       std::cerr << "note: " << song << ", the song of " << report.string()
-                << ", is not there; without --song " << without << '\n';
+                << ", does not exist; without --song " << without << '\n';
       return false;
     }
   } else if (std::filesystem::path(*to).filename() != std::filesystem::path(song).filename()) {

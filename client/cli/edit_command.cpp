@@ -79,7 +79,7 @@ void CheckMarkers(const EditOptions& options) {
                                        "--project dances it");
   }
   if (options.marks.empty() && options.unmarked.empty())
-    throw InvalidArgument("--mark", "is missing, and so is --unmark: nothing is to be changed");
+    throw InvalidArgument("--mark", "is missing, and so is --unmark: nothing to change");
   for (const auto& [id, time] : options.marks) {
     if (id.empty()) throw InvalidArgument("--mark", "has an empty name");
     authoring::ParseTime(time, "--mark");
@@ -93,16 +93,15 @@ void CheckOptions(const EditOptions& options) {
     throw InvalidArgument("--mark", "goes with a project, and " + options.dance + " is none");
   const bool otherwise = options.changed != DanceChange::kNothing;
   if (!EditsKeys(options) && !EditsWhole(options) && otherwise && options.report.empty()) {
-    throw InvalidArgument("--report",
-                          "is missing: the whole dance is danced anew, through the keys that it "
-                          "names");
+    throw InvalidArgument(
+        "--report", "is missing: it names the keys, through which the whole dance is danced again");
   }
   if (!EditsKeys(options) && !EditsWhole(options) && !otherwise) {
-    throw InvalidArgument("--key",
-                          "is missing, and so are --move, --remove, --repeat, --stretch, "
-                          "--mirror-phrase, --retake, --end, --loop, --from, --until, --mirror and "
-                          "--join, and --seed, --style, --path and --velocity, which change the "
-                          "whole dance: nothing is to be changed");
+    throw InvalidArgument(
+        "--key",
+        "is missing, and so are --move, --remove, --repeat, --stretch, --mirror-phrase, --retake, "
+        "--end, --loop, --from, --until, --mirror and --join, and --seed, --style, --path and "
+        "--velocity, which change the whole dance: nothing to change");
   }
   if (EditsKeys(options) && EditsWhole(options)) {
     throw InvalidArgument("--key",
@@ -133,7 +132,7 @@ void CheckOptions(const EditOptions& options) {
   if (!options.end.empty()) inputs.push_back({"--end", authoring::FileOf(options.end)});
   RequireOutputs({{"--out", options.out}, {"--new-report", options.new_report}}, inputs);
   if (options.report.empty() && !options.new_report.empty()) {
-    throw InvalidArgument("--new-report", "needs --report, which it is made of");
+    throw InvalidArgument("--new-report", "needs --report, from which it is made");
   }
   if (!options.new_report.empty() && !options.join.empty() && options.join_report.empty()) {
     throw InvalidArgument("--join-report", "is missing: --new-report names both dances' keys");

@@ -44,8 +44,8 @@ void FillBeats(bool says_start, EditOptions* options) {
   if (hint.half_time || hint.double_time) {
     throw InvalidArgument(hint.half_time ? "--half-time" : "--double-time",
                           options->report +
-                              " has the beats that were danced to, maybe changed so; "
-                              "say of which beats: --beats auto, or --beats FILE");
+                              " has the dance's beats, perhaps changed like this; choose which "
+                              "beats to change: --beats auto, or --beats FILE");
   }
   authoring::ChangeBeats(options->beats, options->song_start_s, &settings.beats,
                          &settings.downbeats);
@@ -109,8 +109,7 @@ void FillFromReport(bool says_start, EditOptions* options) {
   // Another take needs another seed, unless other settings change.
   if (!options->retakes.empty() && options->changed == DanceChange::kNothing) {
     options->seed = settings.seed.value_or(0) + 1;
-    std::cerr << "note: takes are danced with seed " << *options->seed
-              << "; another --seed gives others\n";
+    std::cerr << "note: retakes use seed " << *options->seed << "; another --seed gives others\n";
   }
   take("seed", settings.seed, &options->seed, std::to_string(settings.seed.value_or(0)));
   take("temperature", settings.temperature, &options->temperature, number(settings.temperature));

@@ -35,7 +35,7 @@ void EditSession::Repeat(double from_s, double until_s, const std::string& later
   const authoring::WrittenTime delay = authoring::ParseTime(later, "--repeat");
   const auto moved = [&](double seconds) { return delay.After(seconds, counts_, "--repeat"); };
   if (Frame(moved(from_s)) <= Frame(from_s))
-    throw InvalidArgument("--repeat", later + " is not later: it must be a frame or more");
+    throw InvalidArgument("--repeat", later + " is not later: it must be at least one frame");
   std::vector<client::KeyEdit> phrase = Phrase("--repeat", from_s, until_s);
   for (client::KeyEdit& edit : phrase) {
     edit.key.frame = FrameInDance("--repeat", moved(Seconds(*edit.key.frame)));
@@ -157,7 +157,7 @@ void EditSession::Stretch(double from_s, double until_s, double times) {
     throw InvalidArgument("--stretch", InFull(times) + " leaves no key in the dance that it moves");
   if (phrase.size() < count) {
     std::cerr << "note: " << count - phrase.size() << " of " << count
-              << " keys would come behind the dance, and are left out\n";
+              << " keys would fall after the end of the dance, and are left out\n";
   }
   const int64_t now = *phrase.front().key.frame, last = LastFrame(phrase.back());
   // The hold of a key before the phrase.

@@ -59,7 +59,7 @@ class Whole {
       throw InvalidArgument(!options_.from.empty() ? "--from" : "--until",
                             "nothing of " + path_ + " is left: it ends at " +
                                 Rounded(static_cast<double>(total) / fps) +
-                                " s, and what stays is to have a frame at least");
+                                " s, and at least one frame must remain");
     }
     dance_ = client::PartOf(dance_, first, end);
     const int64_t by = std::llround(start_s * known_.fps);

@@ -55,14 +55,14 @@ struct LiveCommand : DanceManner {
 void CheckBeatOptions(const authoring::BeatOptions& beats) {
   if (!beats.FindsThem()) {
     throw InvalidArgument("--beats",
-                          "names the beats of a whole song, but a live dance hears them as it goes "
-                          "along, or takes them from --midi-clock; `choreo dance` reads " +
+                          "names the beats of a whole song, but a live dance hears them meanwhile, "
+                          "or takes them from --midi-clock; `choreo dance` reads " +
                               *beats.beats);
   }
   if (beats.downbeat_s) {
     throw InvalidArgument("--downbeat",
-                          "names a second of a song, but of music that is still to sound nobody "
-                          "knows one; `choreo dance` counts bars from it");
+                          "names a second of a song, which live music does not have; `choreo "
+                          "dance` counts bars from it");
   }
 }
 
@@ -84,8 +84,8 @@ std::unique_ptr<live::Sound> OpenSound(const LiveCommand& options) {
 authoring::Counts CountsFor(const LiveCommand& options, double seconds) {
   if (options.song.empty()) {
     return {.advice =
-                "nobody knows yet where the beats of music that is still to sound are; say "
-                "seconds, or name the song's file"};
+                "the beats of live music are not known in advance; use seconds, or name the song's "
+                "file"};
   }
   if (authoring::KeySources(options.keys).empty() && FilesOf(options.controls).empty()) return {};
   return authoring::CountsOf(
@@ -100,7 +100,7 @@ std::string Legend(const std::vector<authoring::LibraryPose>& poses) {
     legend << "  " << live::KeyboardKeys()[i] << ' ' << std::left << std::setw(15) << poses[i].id;
     if (i % kColumns == kColumns - 1) legend << '\n';
   }
-  legend << "\nBackspace takes the last one back; Ctrl-C ends the dance.\n";
+  legend << "\nBackspace removes the last pose; Ctrl-C ends the dance.\n";
   return legend.str();
 }
 
@@ -151,12 +151,10 @@ void Run(const LiveCommand& options) {
   CheckBeatOptions(options.beats);
   if (options.server.deadline_s > 0) {
     throw InvalidArgument("--deadline",
-                          "a live dance takes as long as its music; --seconds says how long that "
-                          "is at most");
+                          "a live dance lasts as long as its music; --seconds limits it");
   }
   if (options.look_ahead_s >= options.ahead_s) {
-    throw InvalidArgument("--ahead", InFull(options.ahead_s) +
-                                         " s is not after what is settled already, --look-ahead " +
+    throw InvalidArgument("--ahead", InFull(options.ahead_s) + " s does not exceed --look-ahead, " +
                                          InFull(options.look_ahead_s) + " s");
   }
   // Opened before the server starts, so that a wrong file name is reported at once.

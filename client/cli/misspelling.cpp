@@ -9,7 +9,7 @@ std::string DescribeCommand(const CLI::App& program, const std::string& word) {
   Nearest command(word);
   for (const CLI::App* known : program.get_subcommands([](const CLI::App*) { return true; }))
     command.Offer(known->get_name());
-  return word + " is no command; " +
+  return word + " is not a command; " +
          (command.nearest().empty() ? "see --help" : "did you mean " + command.nearest() + "?");
 }
 
@@ -30,7 +30,7 @@ std::string DescribeMisspelling(const CLI::App& program) {
         for (const std::string& long_name : known->get_lnames()) option.Offer(long_name);
       }
       if (option.nearest().empty()) continue;
-      return name + " is no option of " + command->get_name() + "; did you mean --" +
+      return name + " is not an option of " + command->get_name() + "; did you mean --" +
              option.nearest() + "?";
     }
   }

@@ -88,7 +88,7 @@ const CLI::Validator& SongOrNone() {
   static const CLI::Validator kCheck(
       [](std::string& text) -> std::string {
         if (text == kNoSong || CLI::ExistingFile(text).empty()) return {};
-        return text + " is no file that is there; " + kNoSong + " stands for no song";
+        return text + " is not an existing file; " + kNoSong + " stands for no song";
       },
       "FILE|" + std::string(kNoSong));
   return kCheck;
@@ -103,7 +103,7 @@ void AddSongStart(CLI::App& command, double& seconds) {
 
 void CheckSongStart(const CLI::App& command, const std::string& song) {
   if (song.empty() && command.count("--song-start") > 0)
-    throw CLI::ValidationError("--song-start", "there is no song: it goes with one");
+    throw CLI::ValidationError("--song-start", "needs a song");
 }
 
 void AddAllowBends(CLI::App& command, bool& allowed) {
@@ -142,8 +142,7 @@ void AddManner(CLI::App& command, DanceManner* manner) {
                   "A style that `choreo info` lists, such as happy or tired. The list says which "
                   "hardly show, as all styles of the model default. Default: none.")
       ->check([](const std::string& name) {
-        return name.empty() ? std::string("is empty; leave it out for no style in particular")
-                            : std::string();
+        return name.empty() ? std::string("is empty; leave it out for no style") : std::string();
       });
 }
 

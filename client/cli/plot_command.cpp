@@ -187,7 +187,7 @@ void Run(PlotOptions& options) {
   if (!options.beats.FindsThem()) inputs.push_back({"--beats", *options.beats.beats});
   RequireOutputs({{"--out", options.out}}, inputs);
   if (beats && options.song.empty())
-    throw InvalidArgument("--song", "beats want the song that was danced to");
+    throw InvalidArgument("--song", "beats need the song of the dance");
   if (!beats && !options.song.empty() && options.paths.empty())
     throw InvalidArgument("--song", "goes with beats, or with the counts of --path");
   authoring::RequireSong(options.beats, options.song);
@@ -196,7 +196,7 @@ void Run(PlotOptions& options) {
         "motions", std::to_string(options.motions.size()) + ", but beats are plotted of one");
   }
   if (beats && !options.labels.empty())
-    throw InvalidArgument("--label", "lines of beats have names of their own");
+    throw InvalidArgument("--label", "plots of beats name their own lines");
   if ((part || beats) && !options.paths.empty()) {
     throw InvalidArgument("--path",
                           "says nothing of " + (beats ? "beats" : "the speed of a " + options.of));

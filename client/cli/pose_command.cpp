@@ -113,8 +113,8 @@ void Run(const PoseOptions& options) {
     throw InvalidArgument("--from-photo",
                           "photos are read in the browser: open `choreo studio` and drop " +
                               options.photo +
-                              " on its page; what another program saw in it goes with "
-                              "--from-landmarks or --from-smpl");
+                              " on its page; for what another program found in it there are "
+                              "--from-landmarks and --from-smpl");
   }
   if (!options.png.empty()) RequireExtension("--png", options.png, ".png");
   if (!options.out.empty()) RequireExtension("--out", options.out, ".json");

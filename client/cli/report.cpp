@@ -58,12 +58,11 @@ std::string KeysText(const WrittenDance& dance) {
         in_file.keys > 0 ? ";" : ":", between.keys, dance.file_fps, between.Text().c_str(),
         dance.header.model_fps, 1000 * near.distance_m);
   }
-  return text +
-         Format(
-             "\non the way to a key the model's frames are bent towards it: a joint by %.1f cm at "
-             "most, to \"%s\" at %s; %.1f cm on average were left to the keys\n",
-             100 * furthest->correction_m, furthest->id.c_str(),
-             TimeFormat{dance.header.model_fps}.Of(furthest->frame).c_str(), 100 * raw);
+  return text + Format(
+                    "\nbefore a key the model's frames are steered towards it: a joint by at most "
+                    "%.1f cm, to \"%s\" at %s; at the keys %.1f cm were left on average\n",
+                    100 * furthest->correction_m, furthest->id.c_str(),
+                    TimeFormat{dance.header.model_fps}.Of(furthest->frame).c_str(), 100 * raw);
 }
 
 }  // namespace
@@ -131,7 +130,7 @@ std::string ReportText(const WrittenDance& dance) {
     text += Format(", balanced over her feet in %.0f %% of the frames", 100 * *report.support);
   text += '\n';
   if (!report.part_speeds.empty()) {
-    text += "speeds danced (and asked), cm a frame:";
+    text += "speeds danced (and requested), cm a frame:";
     for (size_t part = 0; part < kBodyParts; ++part) {
       const auto& [asked, danced] = report.part_speeds[part];
       text += Format("%s %s %.2f (%.2f)", part > 0 ? "," : "",

@@ -127,7 +127,7 @@ void SeparateDancers(const authoring::Dancers& stage, const Skeleton& skeleton,
             << " s\n";
   if (factor > 1) {
     std::cerr << "note: places are " << Rounded(factor)
-              << " times as far from their middle as said, so that bodies stay "
+              << " times as far from their middle as requested, so that bodies stay "
               << Rounded(stage.apart) << " m apart\n";
   }
 }

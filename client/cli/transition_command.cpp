@@ -66,9 +66,7 @@ void CheckAt(const CLI::App& command, const TransitionOptions& options) {
   const auto is_absent = [](const NamedFile& file) { return file.path.empty(); };
   if (command.count("--at") > 0 && options.song.empty() &&
       std::ranges::all_of(FilesOf(options.controls), is_absent)) {
-    throw CLI::ValidationError("--at",
-                               "there is nothing whose second it could be: it goes with --song, "
-                               "--path or a file for --velocity");
+    throw CLI::ValidationError("--at", "needs --song, --path or a file for --velocity");
   }
 }
 

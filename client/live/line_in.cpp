@@ -51,7 +51,7 @@ class LineIn final : public Sound {
     if (code >= 0) return;
     throw Error(ErrorCode::kNotFound, "--input",
                 "\"" + device_ + "\" can't be opened: " + snd_strerror(code) +
-                    "; `arecord -L` names those that there are");
+                    "; `arecord -L` lists the devices");
   }
 
   std::string device_;

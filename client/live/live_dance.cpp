@@ -96,7 +96,8 @@ void LiveDance::Play(Sound& sound, std::span<const std::unique_ptr<Cues>> cues, 
     if (!midi || !midi->runs()) SendBeats(std::move(heard.beats), now);
     if (!clock_missed && (midi->runs() || now >= kClockMissedSeconds)) {
       clock_missed = true;
-      if (!midi->runs()) Note("no MIDI clock was started yet; until it is, beats are heard");
+      if (!midi->runs())
+        Note("no MIDI clock has started yet; until then beats come from the sound");
     }
     if (heard.passage) dance_->SendPassages(std::array{*heard.passage});
     granted_ = FrameAt(now + options_.look_ahead_s);
@@ -121,8 +122,8 @@ void LiveDance::SendBeats(BeatsAhead ahead, double now) {
 void LiveDance::Follow(const Cue& cue, double now) {
   if (cue.pose.empty()) return TakeBack();
   if (std::ssize(sent_) >= options_.most_keys) {
-    return Refuse("this dance has had all of the " + std::to_string(options_.most_keys) +
-                  " poses that the server takes");
+    return Refuse("this dance already has all " + std::to_string(options_.most_keys) +
+                  " poses that the server allows");
   }
   const auto pose = options_.poses.find(cue.pose);
   if (pose == options_.poses.end()) return Note("there is no pose \"" + cue.pose + "\"");
@@ -169,7 +170,7 @@ std::vector<client::KeyPose> LiveDance::DancedKeys() const {
     if (sent == sent_.end()) {
       throw Error(
           ErrorCode::kInternal, "",
-          "the server says that a key was reached which it was not sent: " + Printable(reached.id));
+          "the server reports a key as reached that it was not sent: " + Printable(reached.id));
     }
     danced.push_back(*sent);
   }
@@ -177,7 +178,7 @@ std::vector<client::KeyPose> LiveDance::DancedKeys() const {
 }
 
 void LiveDance::Refuse(const std::string& reason) {
-  Note("no further pose is taken: " + reason);
+  Note("no more poses are accepted: " + reason);
   const std::lock_guard lock(mutex_);
   ++since_.keys_refused;
 }
@@ -199,7 +200,7 @@ void LiveDance::TakeBack() {
     keys_.erase(last);
     return;
   }
-  Note("no pose can be taken back");
+  Note("no pose can be removed");
 }
 
 void LiveDance::ShowFigures(double seconds) {

@@ -39,7 +39,7 @@ MidiClock::MidiClock(const std::string& device)
   close(file_);
   throw InvalidArgument("--midi-clock", "\"" + device + "\" is a " +
                                             (S_ISDIR(kind.st_mode) ? "folder" : "file") +
-                                            ", no device that raw MIDI comes from");
+                                            ", not a device of raw MIDI");
 }
 
 MidiClock::~MidiClock() { close(file_); }
@@ -54,7 +54,7 @@ std::vector<double> MidiClock::Take(double now) {
   for (; (size = read(file_, bytes.data(), bytes.size())) > 0;) {
     all += static_cast<size_t>(size);
     if (all > kMaxBytes) {
-      throw InvalidArgument("--midi-clock", "\"" + device_ + "\" is no MIDI device: more than " +
+      throw InvalidArgument("--midi-clock", "\"" + device_ + "\" is not a MIDI device: more than " +
                                                 std::to_string(kMaxBytes) + " bytes came at once");
     }
     for (const uint8_t byte : std::span(bytes).first(static_cast<size_t>(size))) {

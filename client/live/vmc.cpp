@@ -81,7 +81,7 @@ lo_address Resolve(const std::string& address) {
     throw InvalidArgument("--vmc", "\"" + address + "\" is not HOST:PORT");
   if (ParsePort(port).value_or(0) < 1)
     throw InvalidArgument("--vmc", "\"" + address + "\" has the port " + port +
-                                       ", which is no whole number from 1 to " +
+                                       ", which is not a whole number from 1 to " +
                                        std::to_string(kMaxPort));
   return lo_address_new(WithoutBrackets(host).c_str(), port.c_str());
 }
@@ -105,8 +105,8 @@ struct VmcSender::Impl {
     bundle.Add("/VMC/Ext/OK", int32_t{0});
     if (!bundle.SendTo(address.get())) {
       const char* reason = lo_address_errstr(address.get());
-      throw InvalidArgument(
-          "--vmc", "\"" + named + "\" can't be reached: " + (reason ? reason : "it is no address"));
+      throw InvalidArgument("--vmc", "\"" + named + "\" can't be reached: " +
+                                         (reason ? reason : "it is not an address"));
     }
   }
 

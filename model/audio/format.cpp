@@ -48,7 +48,7 @@ void CheckDownbeats(std::span<const double> downbeats, std::span<const double> b
   for (size_t i = 0; i < downbeats.size(); ++i) {
     if (!std::ranges::binary_search(beats, downbeats[i])) {
       throw InvalidArgument(At(field, static_cast<int64_t>(i)),
-                            InFull(downbeats[i]) + " s is none of the beats beside it");
+                            InFull(downbeats[i]) + " s is not one of the beats");
     }
   }
 }

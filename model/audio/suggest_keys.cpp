@@ -39,8 +39,7 @@ std::vector<double> Strengths(std::span<const int64_t> frames, std::span<const f
 void CheckCount(std::span<const double> times, int64_t count, const std::string& name) {
   const int64_t most = MostKeys(times);
   if (most == 0) {
-    throw InvalidArgument(
-        name, std::to_string(count) + " keys, but no beat is heard that they could stand on");
+    throw InvalidArgument(name, std::to_string(count) + " keys, but no beat is heard for them");
   }
   if (count >= 1 && count <= most) return;
   char text[160];

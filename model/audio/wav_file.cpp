@@ -182,7 +182,7 @@ std::unique_ptr<SoundReader> ReadWav(const ByteSource& source, const std::string
       format_chunk = FormatAt(source, at);
     }
     if (source.Has(at, "LIST") && source.Has(body, "wavl"))
-      throw InvalidArgument(name, "keeps its samples in pieces (a wavl list), which is not read");
+      throw InvalidArgument(name, "stores its samples in pieces (a wavl list), which is not read");
     if (!source.Has(at, "data")) {
       odd = odd || size % 2 != 0;
       at = After(source, body, size);
@@ -195,9 +195,9 @@ std::unique_ptr<SoundReader> ReadWav(const ByteSource& source, const std::string
     if (format == kMpegLayer3)
       return ReadMpeg(PartOf(source, body, is_right ? body + size : source.size), name);
     if (format == kPcm && IsBurst(source, body)) {
-      throw InvalidArgument(name,
-                            std::string("contains AC-3 or the like for a receiver, not samples: ") +
-                                kAskFfmpeg + " converts it");
+      throw InvalidArgument(
+          name, std::string("contains data for a receiver, such as AC-3, not samples: ") +
+                    kAskFfmpeg + " converts it");
     }
     if (!is_right && held > 0) {
       notes.push_back("its header says " + std::to_string(size) + " bytes of samples, " +

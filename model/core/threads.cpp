@@ -74,8 +74,8 @@ std::string RequireFastBlas(const BlasInfo& blas) {
     case kNone:
       return "no BLAS library is loaded; LibTorch brings its own, or products are slow";
     case kUnknown:
-      return "nobody knows how fast the BLAS " + blas.name + " (" + blas.path +
-             ") is; OpenBLAS, MKL and BLIS are";
+      return "the speed of the BLAS " + blas.name + " (" + blas.path +
+             ") is unknown; OpenBLAS, MKL and BLIS are fast";
     case kReference:
       break;
   }

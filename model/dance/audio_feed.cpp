@@ -62,7 +62,7 @@ Eigen::VectorXf HearSilence(const Hearing& hearing) {
 void CheckSamples(std::span<const float> interleaved, int channels, int64_t first_sample) {
   if (interleaved.size() % static_cast<size_t>(channels) != 0) {
     throw InvalidArgument("audio.data", std::to_string(interleaved.size()) +
-                                            " values are no multiple of the " +
+                                            " values are not a multiple of the " +
                                             std::to_string(channels) + " channels");
   }
   CheckLevels(interleaved, channels, first_sample);
@@ -145,7 +145,7 @@ int64_t AudioFeed::ready() const {
 const Eigen::VectorXf& AudioFeed::Heard(int64_t row) const {
   if (row >= ready_ || (row >= 0 && row < first_row_)) {
     throw Error(ErrorCode::kInternal, "",
-                "audio row " + std::to_string(row) + " is forgotten, or was never sent");
+                "audio row " + std::to_string(row) + " is no longer kept, or was never sent");
   }
   if (row < 0 || row >= published_) return silence_;
   return rows_[static_cast<size_t>(row - first_row_)];

@@ -26,8 +26,8 @@ void CheckStyle(const ModelInfo& model, const std::string& style) {
     throw InvalidArgument(field, "has " + std::to_string(style.size()) + " bytes, at most " +
                                      std::to_string(kMaxIdLength));
   }
-  throw InvalidArgument(field, "\"" + style + "\" is no style of the model " + model.name + "; " +
-                                   DidYouMean(style, model.styles));
+  throw InvalidArgument(field, "\"" + style + "\" is not a style of the model " + model.name +
+                                   "; " + DidYouMean(style, model.styles));
 }
 
 void ValidateAudioStart(const ModelInfo& model, const DanceStart::Audio& audio,
@@ -42,7 +42,7 @@ void ValidateAudioStart(const ModelInfo& model, const DanceStart::Audio& audio,
     throw Error(ErrorCode::kOutOfRange, field + ".first_sample",
                 std::to_string(audio.first_sample) + " is not in [0, " + std::to_string(latest) +
                     "], so frame " + std::to_string(first_frame) +
-                    " could not hear what lies before it");
+                    " could not hear the music before it");
   }
 }
 

@@ -105,7 +105,7 @@ std::string Timeline::WhyFrozen() const {
 std::optional<KeyRejected> Timeline::BeforeTheDance(const std::string& id, int64_t frame) const {
   if (frame >= options_.first_frame) return std::nullopt;
   return KeyRejected{id, frame, EarliestFrame(),
-                     "the dance goes on from frame " + Frames(options_.first_frame),
+                     "the dance continues from frame " + Frames(options_.first_frame),
                      KeyRejected::Code::kAlreadyDanced};
 }
 

@@ -42,14 +42,14 @@ Warning IntervalTooShort(const Skeleton& skeleton, const std::string& id, int64_
 Warning InexactResume(const Continuation& continuation, const ModelInfo& model) {
   return {continuation.frame,
           "the continuation is of \"" + continuation.fingerprint + "\", this server is \"" +
-              model.fingerprint + "\": the dance goes on differently",
+              model.fingerprint + "\": the dance continues differently",
           Warning::Code::kInexactResume};
 }
 
 Warning TemperatureTooHigh(int64_t frame, double requested, double most) {
   return {frame,
           "temperature " + RoundedBeyond(requested, most) + " is beyond " + Rounded(most) +
-              ", the most that the model is trained for: it dances as at " + Rounded(most),
+              ", the highest that the model is trained for: it dances as at " + Rounded(most),
           Warning::Code::kTemperatureTooHigh};
 }
 
@@ -69,7 +69,7 @@ Warning KeyOffPath(const std::string& id, int64_t frame, double metres) {
 Warning ControlsTooLate(std::string_view control, int64_t last_frame, int64_t earliest) {
   return {last_frame,
           "the " + std::string(control) + " ends at " + Seconds(last_frame) + ", and all before " +
-              Seconds(earliest) + " is frozen: nothing comes of it",
+              Seconds(earliest) + " is frozen: it has no effect",
           Warning::Code::kControlsTooLate};
 }
 
@@ -77,14 +77,14 @@ Warning BeatsTooLate(int64_t frame, int64_t count, int64_t earliest) {
   return {frame,
           std::to_string(count) + " beats from " + Seconds(frame) +
               " on came too late, all before " + Seconds(earliest) +
-              " is frozen: nothing comes of them",
+              " is frozen: they have no effect",
           Warning::Code::kBeatsTooLate};
 }
 
 Warning PathBehindEnd(int64_t first_frame, int64_t end) {
   return {first_frame,
           "the root path begins at " + Seconds(first_frame) + ", after the last frame at " +
-              Seconds(end - 1) + ": nothing comes of it",
+              Seconds(end - 1) + ": it has no effect",
           Warning::Code::kPathBehindEnd};
 }
 
@@ -116,29 +116,30 @@ Warning MusicDamaged(const std::vector<std::string>& notes, double seconds, doub
 }
 
 Warning MusicSilent(int64_t last_frame, double seconds) {
-  return {last_frame,
-          "all " + Rounded(seconds) + " s of the music are silent: the dance follows nothing",
-          Warning::Code::kMusicSilent};
+  return {
+      last_frame,
+      "all " + Rounded(seconds) + " s of the music are silent: the dance has no music to follow",
+      Warning::Code::kMusicSilent};
 }
 
 Warning ChannelsCancel(int64_t last_frame) {
   return {last_frame,
-          "the channels of the music cancel each other in their mix: the dance follows nothing; "
-          "send one of them, or the file",
+          "the channels of the music cancel each other in their mix: the dance has no music to "
+          "follow; send one of them, or the file",
           Warning::Code::kMusicSilent};
 }
 
 Warning KeyBehindMusic(const std::string& id, int64_t frame, double seconds) {
   return {frame,
           "key \"" + id + "\" at " + Seconds(frame) + " lies " + Rounded(seconds) +
-              " s behind the end of the music: the dance goes on to it in silence",
+              " s behind the end of the music: the dance continues to it in silence",
           Warning::Code::kKeyBehindMusic, id};
 }
 
 Warning DanceBehindMusic(int64_t music_end, double seconds) {
   return {
       music_end,
-      "the dance is longer than the music: it goes on for " + Rounded(seconds) + " s in silence",
+      "the dance is longer than the music: it continues for " + Rounded(seconds) + " s in silence",
       Warning::Code::kDanceBehindMusic};
 }
 
@@ -166,7 +167,7 @@ Warning FlightTooLong(int64_t frame, double seconds, const std::string& id) {
 
 Warning VelocityNotMet(int64_t last_frame, const std::string& misses) {
   return {last_frame,
-          "parts are not as fast as their velocity factors ask, cm a frame on average: " + misses,
+          "parts do not move as their velocity factors request, cm a frame on average: " + misses,
           Warning::Code::kVelocityNotMet};
 }
 

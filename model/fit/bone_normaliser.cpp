@@ -61,7 +61,7 @@ SourceSize BoneNormaliser::Measure(const PositionClip& clip) const {
   }
   const double ours = their_legs > 0 ? our_legs : our_bones;
   const double theirs = their_legs > 0 ? their_legs : their_bones;
-  if (!(theirs > 1e-6)) throw InvalidArgument("clip", "all landmarks stand in one place");
+  if (!(theirs > 1e-6)) throw InvalidArgument("clip", "all landmarks are in one place");
   size.scale = ours / theirs;
   return size;
 }

@@ -121,7 +121,7 @@ double RigReading::Scale() const {
     ours += OurBody().offsets.col(OurBody().Find(segment.to)).norm();
   }
   if (!(theirs > 1e-9) || !std::isfinite(ours / theirs))
-    throw InvalidArgument("bones", "its legs have no length: all stand in one place");
+    throw InvalidArgument("bones", "its legs have no length: are all in one place");
   return ours / theirs;
 }
 

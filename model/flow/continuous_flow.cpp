@@ -345,7 +345,7 @@ ContinuousFlowCheckpoint ParseContinuousFlow(const Safetensors& content, const s
       CheckpointFile(content, name, kFormat), whole);
   checkpoint.model->config().Validate(name + ": config");
   if (!checkpoint.model->Parts().curve.IsValid())
-    throw InvalidArgument(name + ": " + kCurve, "is no correlation: it leaves [-1, 1]");
+    throw InvalidArgument(name + ": " + kCurve, "is not a correlation: it leaves [-1, 1]");
   return checkpoint;
 }
 

@@ -48,7 +48,7 @@ MotionPrior::MotionPrior(Eigen::MatrixXd covariance, VariancePowers powers, Usua
       usual_(std::move(usual)),
       cache_(std::make_shared<Cache>()) {
   if (covariance_.cols() < 1 || !covariance_.allFinite() || covariance_.col(0).minCoeff() <= 0) {
-    throw InvalidArgument("velocity_covariance", "is no covariance of a process in time");
+    throw InvalidArgument("velocity_covariance", "is not a covariance of a process in time");
   }
   for (int d = 0; d < dimensions(); ++d) {
     Eigen::VectorXd sums = Eigen::VectorXd::Zero(covariance_.cols());

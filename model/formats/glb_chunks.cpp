@@ -28,7 +28,7 @@ void AppendWord(uint32_t word, std::string& bytes) {
   bytes.append(reinterpret_cast<const char*>(&word), sizeof(word));
 }
 
-Error NoGlb(const std::string& why) { return InvalidArgument("", "is no binary glTF: " + why); }
+Error NoGlb(const std::string& why) { return InvalidArgument("", "is not a binary glTF: " + why); }
 
 // Removes and returns the first chunk of `bytes` if it has this type.
 std::string_view TakeChunk(std::string_view& bytes, uint32_t type) {
@@ -74,9 +74,9 @@ std::string ReadBeside(const std::filesystem::path& path, const std::string& uri
   const std::filesystem::path beside = path.parent_path() / name;
   std::error_code error;
   if (name.is_absolute() || up != name.end() || !std::filesystem::is_regular_file(beside, error)) {
-    throw InvalidArgument("buffers[0].uri", '"' + Printable(uri) +
-                                                "\" is no file beside it: export it as .glb, "
-                                                "which is one file");
+    throw InvalidArgument(
+        "buffers[0].uri",
+        '"' + Printable(uri) + "\" is not a file beside it: export it as .glb, which is one file");
   }
   return ReadFile(beside);
 }

@@ -121,7 +121,8 @@ ordered_json ParseGltfJson(std::string_view glb) {
   const std::string_view text = SplitGlb(glb).json;
   CheckJsonDepth(text, "");
   ordered_json document = ordered_json::parse(text, nullptr, false);
-  if (!document.is_object()) throw InvalidArgument("", "is no binary glTF: its JSON is no object");
+  if (!document.is_object())
+    throw InvalidArgument("", "is not a binary glTF: its JSON is no object");
   return document;
 }
 

@@ -36,7 +36,7 @@ tinygltf::Model ParseGlb(std::string_view bytes) {
   if (!gltf.LoadBinaryFromMemory(&model, &error, &warning, data,
                                  static_cast<unsigned>(bytes.size()))) {
     error.erase(std::find(error.begin(), error.end(), '\n'), error.end());
-    throw InvalidArgument("", "is no binary glTF: " + (error.empty() ? "bad header" : error));
+    throw InvalidArgument("", "is not a binary glTF: " + (error.empty() ? "bad header" : error));
   }
   return model;
 }
@@ -132,7 +132,7 @@ void ReadSparse(const tinygltf::Model& model, const tinygltf::Accessor& accessor
       (indexed != TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE &&
        indexed != TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT &&
        indexed != TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT))
-    throw InvalidArgument(name + ".sparse", "has counts or kinds that there are not");
+    throw InvalidArgument(name + ".sparse", "has unknown counts or kinds");
   const auto count = static_cast<uint64_t>(sparse.count);
   const Eigen::MatrixXd at =
       ReadElements(model,
@@ -152,7 +152,7 @@ void ReadSparse(const tinygltf::Model& model, const tinygltf::Accessor& accessor
                    name + ".sparse.values");
   for (Eigen::Index i = 0; i < at.cols(); ++i) {
     if (at(0, i) >= static_cast<double>(values->cols()))
-      throw InvalidArgument(name + ".sparse.indices", "name elements that there are not");
+      throw InvalidArgument(name + ".sparse.indices", "name elements that do not exist");
     values->col(static_cast<Eigen::Index>(at(0, i))) = given.col(i);
   }
 }

@@ -58,7 +58,7 @@ void NoteFit(const RigFit& fit, const MotionReading& reading) {
         "rotations of head, hands and feet are guesses");
   } else if (!fit.rest) {
     reading.Note(
-        "its rest pose is no standing body: the rotations of head, hands and feet at rest are "
+        "its rest pose is not a standing body: the rotations of head, hands and feet at rest are "
         "guesses");
   }
   if (!fit.missing.empty())

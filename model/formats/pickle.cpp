@@ -75,7 +75,7 @@ class Unpickler : PickleInput {
     opcode_ = bytes_.empty() ? 0 : static_cast<unsigned char>(bytes_.front());
     if (opcode_ == 0x80) Take(1);
     if (opcode_ == 0x80 ? Byte() > 5 : !kOperations.contains(opcode_))
-      Refuse("no pickle of protocol 0 to 5");
+      Refuse("not a pickle of protocol 0 to 5");
     for (int operation = 0; operation < kMaxOperations; ++operation) {
       NextOpcode();
       if (opcode_ == '.') return Expect(TakeOnly(Pop()), kind);

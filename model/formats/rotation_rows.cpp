@@ -73,7 +73,7 @@ Eigen::MatrixXd FromMatrices(const Rows& rows, const std::string& key) {
       if (!square.isApprox(Eigen::Matrix3d::Identity(), kNoRotation) || matrix.determinant() < 0) {
         throw InvalidArgument(
             key + "[" + std::to_string(frame) + "][" + std::to_string(joint) + "]",
-            "is no rotation matrix");
+            "is not a rotation matrix");
       }
       turns.col(frame).segment<3>(3 * joint) = LogMap(NearestRotation(matrix));
     }
@@ -118,7 +118,7 @@ Eigen::MatrixXd FromSixD(const Rows& rows, const std::string& key) {
       } catch (const Error&) {
         throw InvalidArgument(
             key + "[" + std::to_string(frame) + "][" + std::to_string(joint) + "]",
-            "is no rotation in 6D");
+            "is not a rotation in 6D");
       }
     }
   }
@@ -152,7 +152,7 @@ Eigen::MatrixXd FromQuaternions(const Rows& rows, const std::string& key) {
       if (!(std::abs(q.norm() - 1) < kNoRotation)) {
         throw InvalidArgument(
             key + "[" + std::to_string(frame) + "][" + std::to_string(joint) + "]",
-            "is no quaternion of length 1");
+            "is not a quaternion of length 1");
       }
       const Eigen::Quaterniond turn = first > last ? Eigen::Quaterniond(q[0], q[1], q[2], q[3])
                                                    : Eigen::Quaterniond(q[3], q[0], q[1], q[2]);

@@ -169,8 +169,7 @@ void AddInputs(const SharedArguments& arguments, CLI::App* command) {
   splits->needs(data);
   command
       ->add_option("--music", arguments->music,
-                   "Instead of clips: how far dances show that music is heard, for made songs and "
-                   "for these (files or folders)")
+                   "Measure hearing instead of clips, with made songs and these (files or folders)")
       ->check(CLI::ExistingPath)
       ->excludes(data);
   command->add_option("--other", arguments->contest.others,

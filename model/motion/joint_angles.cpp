@@ -50,7 +50,7 @@ int RequireJoint(const Skeleton& skeleton, const std::string& name, const std::s
   Nearest misspelt(name);
   for (const std::string& known : skeleton.joint_names) meant.Offer(known), misspelt.Offer(known);
   const std::string near = misspelt.nearest().empty() ? meant.nearest() : misspelt.nearest();
-  throw InvalidArgument(field, "\"" + name + "\" is no joint of " + skeleton.name +
+  throw InvalidArgument(field, "\"" + name + "\" is not a joint of " + skeleton.name +
                                    (near.empty() ? ", which has " + Joined(skeleton.joint_names)
                                                  : "; did you mean " + near + "?"));
 }

@@ -88,7 +88,8 @@ void ControlReader::operator()(const char* name, std::vector<std::string>& parts
     const int number = message_.GetReflection()->GetRepeatedEnumValue(message_, field, i);
     const int part = number - v1::BODY_PART_TRUNK;
     if (part < 0 || part >= kBodyParts)
-      throw InvalidArgument(At(field_ + '.' + name, i), std::to_string(number) + " is no BodyPart");
+      throw InvalidArgument(At(field_ + '.' + name, i),
+                            std::to_string(number) + " is not a BodyPart");
     return std::string(kBodyPartNames[static_cast<size_t>(part)]);
   });
 }

@@ -51,7 +51,7 @@ int NumbersPerJoint(v1::RotationEncoding encoding, const std::string& field) {
     case v1::ROTATION_ENCODING_MATRIX:
       return 9;
     default:
-      throw InvalidArgument(field, std::to_string(encoding) + " is no RotationEncoding");
+      throw InvalidArgument(field, std::to_string(encoding) + " is not a RotationEncoding");
   }
 }
 

@@ -94,7 +94,7 @@ TEST_F(CharacterCommandTest, NamesImpossibleRequests) {
   const std::string hero = "--character " + At("hero.glb");
   ExpectRefused(Convert("--map " + At("map.json")), "map.json:bones: must be an object");
   ExpectRefused(Convert("--character " + At("hero.gltf")), "must be .glb");
-  ExpectRefused(Convert("--character " + At("empty.glb")), "is no binary glTF: bad header");
+  ExpectRefused(Convert("--character " + At("empty.glb")), "is not a binary glTF: bad header");
   ExpectRefused(Convert(hero, "out.npz"), "--character: is written to a .glb");
   ExpectRefused(Convert(hero, "hero.glb"), "is the file that --character is read from");
   ExpectRefused(Convert(hero + " --names ue"), "--names: is for a .bvh");

@@ -218,7 +218,7 @@ TEST_F(CommandTest, RendersFromTheSideThatIsAskedFor) {
   EXPECT_THAT(render(" --camera fron").said,
               HasSubstr("--camera: fron is not known; did you mean front?"));
   EXPECT_THAT(render(" --song songg.ogg").said,
-              HasSubstr("--song: songg.ogg is no file that is there; none stands for no song"));
+              HasSubstr("--song: songg.ogg is not an existing file; none stands for no song"));
   EXPECT_THAT(render(" " + At("a.npz") + " --camera follow").said,
               HasSubstr("--camera: follow turns with one dancer, and there are 2"));
 }
@@ -435,15 +435,16 @@ TEST_F(CommandTest, ExplainsItself) {
   EXPECT_EQ(Choreo("swim").code, 2);
   EXPECT_EQ(Choreo("dance").code, 2);
   EXPECT_EQ(Choreo("dance /absent.ogg").code, 2);
-  EXPECT_THAT(Choreo("swim").said, HasSubstr("swim is no command; see --help"));
-  EXPECT_THAT(Choreo("danse song.ogg").said, HasSubstr("danse is no command; did you mean dance?"));
+  EXPECT_THAT(Choreo("swim").said, HasSubstr("swim is not a command; see --help"));
+  EXPECT_THAT(Choreo("danse song.ogg").said,
+              HasSubstr("danse is not a command; did you mean dance?"));
   // Options that would change nothing are not ignored silently.
   EXPECT_THAT(Choreo("render /dev/null --out a.png --size 64x64").said,
               HasSubstr("--size requires --video"));
   EXPECT_THAT(Choreo("dance --style ''").said, HasSubstr("--style: is empty"));
   const Outcome misspelt = Choreo("dance --sead 3");
   EXPECT_EQ(misspelt.code, 2);
-  EXPECT_THAT(misspelt.said, HasSubstr("--sead is no option of dance; did you mean --seed?"));
+  EXPECT_THAT(misspelt.said, HasSubstr("--sead is not an option of dance; did you mean --seed?"));
   EXPECT_THAT(Choreo("dance --temperatur 1").said, HasSubstr("did you mean --temperature?"));
   EXPECT_THAT(Choreo("health --temp 1").said, testing::Not(HasSubstr("did you mean")));
   EXPECT_THAT(Choreo("dance --xylophone").said, testing::Not(HasSubstr("did you mean")));

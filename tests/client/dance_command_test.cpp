@@ -148,7 +148,7 @@ TEST_F(CommandTest, DancesWithoutKeysOnRequest) {
   EXPECT_TRUE(ReadJson(folder_ / "r.json")["keyframes"].empty());
   const Outcome both = Choreo("dance -k none -k x.json " + At("song.wav") + Server());
   EXPECT_EQ(both.code, 1);
-  EXPECT_THAT(both.said, HasSubstr("--keyframes: none stands beside x.json"));
+  EXPECT_THAT(both.said, HasSubstr("--keyframes: none cannot be combined with x.json"));
   EXPECT_EQ(Choreo("dance -k none" + Server()).code, 2);  // it says of no length
 }
 

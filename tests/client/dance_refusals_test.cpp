@@ -56,7 +56,7 @@ TEST_F(CommandTest, NoPoseIsHeldInTheAir) {
 TEST_F(CommandTest, APoseOfTheLibraryIsNoKeyFile) {
   const Outcome outcome = Choreo("dance --seconds 4 --keyframes kick -o " + At("d.npz") + Server());
   EXPECT_EQ(outcome.code, 1);
-  EXPECT_THAT(outcome.said, HasSubstr("kick: is a pose of the library and no file: a key file"));
+  EXPECT_THAT(outcome.said, HasSubstr("kick: is a pose of the library, not a file: a key file"));
 }
 
 TEST_F(CommandTest, WarnsOnceOfAPoseThatIsHeld) {

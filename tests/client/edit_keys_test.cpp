@@ -303,7 +303,7 @@ TEST_F(EditTest, TheReportOfADanceThatLooksOtherwiseIsRefused) {
   outcome = Choreo("edit " + At("n.npz") + Server() + "--key bow --at 2 --report " +
                    At("dance.json") + " --new-report " + At("new.json") + " -o " + At("m.npz"));
   EXPECT_EQ(outcome.code, 0) << outcome.said;
-  EXPECT_THAT(outcome.said, HasSubstr("note: the dance looks otherwise than "));
+  EXPECT_THAT(outcome.said, HasSubstr("note: the dance differs from "));
   outcome = Choreo("edit " + At("m.npz") + Server() + "--key dab --at 2.5 --report " +
                    At("new.json") + " -o " + At("o.npz"));
   EXPECT_THAT(outcome.said, Not(HasSubstr("looks otherwise")));

@@ -22,7 +22,7 @@ TEST_F(RetakeTest, AnotherTakeKeepsItsKeysAndWhatIsAround) {
   const std::string stretch = "--retake " + Seconds(keys_[1]) + " " + Seconds(keys_[3] + 5);
   const Outcome outcome = Edit(stretch + Report("take"));
   ASSERT_EQ(outcome.code, 0) << outcome.said;
-  EXPECT_THAT(outcome.said, HasSubstr("note: takes are danced with seed 4; another --seed gives"));
+  EXPECT_THAT(outcome.said, HasSubstr("note: retakes use seed 4; another --seed gives"));
   ExpectChanged("take.npz", keys_[1] + 1, keys_[3] + 5);
   const Motion before = Read("dance.npz");
   const Motion after = Read("take.npz");
@@ -46,7 +46,7 @@ TEST_F(RetakeTest, AnotherTakeKeepsItsKeysAndWhatIsAround) {
   const Outcome next = Choreo("edit " + At("take.npz") + Server() + stretch + " --report " +
                               At("take.json") + " -o " + At("next.npz"));
   ASSERT_EQ(next.code, 0) << next.said;
-  EXPECT_THAT(next.said, HasSubstr("note: takes are danced with seed 5; another"));
+  EXPECT_THAT(next.said, HasSubstr("note: retakes use seed 5; another"));
   EXPECT_NE(ReadFile(folder_ / "next.npz"), ReadFile(folder_ / "take.npz"));
 }
 

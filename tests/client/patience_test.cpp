@@ -109,7 +109,7 @@ TEST(PatienceTest, NamesAllAddressesThatWereTried) {
     for (const char* address : {"a:1", "b:1"}) ASSERT_TRUE(patience.Next(away, address, true));
   }
   EXPECT_STREQ(ToError(patience.Verdict(), patience.VerdictOf(), {}).what(),
-               "a:1, b:1: no server is reached: connection refused");
+               "a:1, b:1: no server can be reached: connection refused");
   ASSERT_TRUE(patience.Next(kBroken, "b:1", true));
   ASSERT_TRUE(patience.Next(away, "a:1", true));
   EXPECT_STREQ(ToError(patience.Verdict(), patience.VerdictOf(), {}).what(), "the device is gone");

@@ -118,9 +118,10 @@ TEST_F(PoseCommandTest, ErrorsNameTheOptionTheValueAndTheLimit) {
           "--set left_elbow=200: left_elbow is at 200 degrees, must be 0 to 165");
   refused(set("left_elbow"), "--set left_elbow: has no =, as in left_elbow=90");
   refused(set("left_elbow=x"), "--set left_elbow=x: \"x\" is not a number");
-  refused(set("elbow_left=20"), "\"elbow_left\" is no joint of smpl24; did you mean left_elbow?");
+  refused(set("elbow_left=20"),
+          "\"elbow_left\" is not a joint of smpl24; did you mean left_elbow?");
   refused(set("left_elbw=20"), "did you mean left_elbow?");
-  refused(set("tail=1"), "--set tail=1: \"tail\" is no joint of smpl24, which has pelvis");
+  refused(set("tail=1"), "--set tail=1: \"tail\" is not a joint of smpl24, which has pelvis");
   refused(reach({"head=1,2"}), "--reach head=1,2: takes three numbers, metres along x, y and z");
   refused(reach({"head=0,1,0", "head=0,1,0"}), "this joint has a target already");
   refused(reach({"right_hand=0,4,0"}),

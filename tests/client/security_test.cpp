@@ -87,7 +87,7 @@ TEST_F(TlsTest, OnlyTrustingClientsConnect) {
   EXPECT_EQ(danced.motion.frames.size(), 40U);
   ExpectError(ErrorCode::kUnavailable, "not of the authority trusted (--ca)",
               [&] { Client(Trusting(*server, stranger_)).IsServing(); });
-  ExpectError(ErrorCode::kUnavailable, "; it may want TLS, which is off",
+  ExpectError(ErrorCode::kUnavailable, "; it may need TLS, which is off",
               [&] { Client({.addresses = {server->address()}, .retry_s = 0}).GetServerInfo(); });
   Options of_another_name = trusting;
   of_another_name.server_name = "example.test";
@@ -294,7 +294,7 @@ TEST_F(TlsTest, ClientsShowARequiredCertificate) {
   const auto refused = [&](const Certificate& shown, const std::string& hint) {
     ExpectError(ErrorCode::kUnavailable, hint, [&] { serving(shown); });
   };
-  refused({}, "; it may want a client certificate");
+  refused({}, "; it may need a client certificate");
   refused(stranger_.Issue("intruder"), "; it may refuse this client certificate");
   EXPECT_TRUE(serving(authority_.Issue("guest")));
 }

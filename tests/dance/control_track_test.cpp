@@ -118,7 +118,7 @@ TEST_F(ControlTrackTest, NamesPartsThatMissedTheirSpeed) {
   EXPECT_EQ(warnings[0].code, Warning::Code::kVelocityNotMet);
   EXPECT_EQ(warnings[0].frame, 99);
   EXPECT_EQ(warnings[0].message,
-            "parts are not as fast as their velocity factors ask, cm a frame on average: trunk 1 "
+            "parts do not move as their velocity factors request, cm a frame on average: trunk 1 "
             "instead of 2, right_arm 1.18 instead of 1, left_leg 0.2 instead of 0");
 }
 
@@ -208,7 +208,7 @@ TEST_F(ControlTrackTest, NamesAPathThatBeginsAfterTheEnd) {
   ASSERT_EQ(warnings.size(), 1u);
   EXPECT_EQ(warnings[0].code, Warning::Code::kPathBehindEnd);
   EXPECT_EQ(warnings[0].message,
-            "the root path begins at 3.33 s, after the last frame at 3.3 s: nothing comes of it");
+            "the root path begins at 3.33 s, after the last frame at 3.3 s: it has no effect");
   track_.Set(PathRequest({0, 200}, {0, 1}), 0, "controls");  // what replaces it is danced
   EXPECT_TRUE(track_.BehindEnd(100).empty());
 }

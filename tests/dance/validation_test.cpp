@@ -104,10 +104,10 @@ TEST(Validation, ConfigsNameFieldValueAndLimit) {
   EXPECT_THAT(refusal([](DanceConfig& c) { c.music_beats.resize(kMaxBeats + 1); }),
               ::testing::HasSubstr("12001 beats, the limit is 12000"));
   EXPECT_EQ(refusal([&](DanceConfig& c) { c.music_beats = beats, c.music_downbeats = {0.75}; }),
-            "config.music_downbeats[0]: 0.75 s is none of the beats beside it");
+            "config.music_downbeats[0]: 0.75 s is not one of the beats");
   EXPECT_EQ(refusal([](DanceConfig& c) { c.style = "calm"; }), "accepted");
   EXPECT_EQ(refusal([](DanceConfig& c) { c.style = "Calm"; }),
-            "config.style: \"Calm\" is no style of the model fake; did you mean calm?");
+            "config.style: \"Calm\" is not a style of the model fake; did you mean calm?");
   EXPECT_EQ(refusal([](DanceConfig& c) { c.output_fps = 0; }),
             "config.frame_rate: 0 is not in [1, 120]");
   EXPECT_EQ(refusal([](DanceConfig& c) { c.output_fps = 121; }),

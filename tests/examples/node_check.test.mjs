@@ -34,8 +34,8 @@ test('a request that the API does not know is refused by its path', () =>
       [[{ config: { rate: undefined } }], 'config.rate', 'no field of DanceConfig; did you mean frame_rate?'],
       [[{ config: { audio_format: { zoom: 1 } } }], 'config.audio_format.zoom', /^no field of AudioFormat; there are encoding, sample_rate, /],
       [keyframe({ when: { time: 2 } }), 'keyframe.when', /^no field of Keyframe; there are id, frame, time, /],
-      [[{ config: { encoding: 'QUATERNION' } }], 'config.encoding', "'QUATERNION' is no RotationEncoding; did you mean ROTATION_ENCODING_QUATERNION?"],
-      [[{ config: { encoding: 77 } }], 'config.encoding', /^77 is no RotationEncoding; there are ROTATION_ENCODING_UNSPECIFIED, /],
+      [[{ config: { encoding: 'QUATERNION' } }], 'config.encoding', "'QUATERNION' is not a RotationEncoding; did you mean ROTATION_ENCODING_QUATERNION?"],
+      [[{ config: { encoding: 77 } }], 'config.encoding', /^77 is not a RotationEncoding; there are ROTATION_ENCODING_UNSPECIFIED, /],
       [keyframe({ hands: 'fist' }), 'keyframe.hands', "'fist' is no HandPose; did you mean HAND_POSE_FIST?"],
       [keyframe({ pose: { root_position: [0, 1, 0] } }), 'keyframe.pose.root_position', '[ 0, 1, 0 ] is no Vector3, {x, y, z}'],
       [keyframe({ pose: Promise.resolve({}) }), 'keyframe.pose', /is no Pose/],
@@ -44,16 +44,16 @@ test('a request that the API does not know is refused by its path', () =>
       [keyframe({ pose: { rotations: new DataView(new ArrayBuffer(8)) } }), 'keyframe.pose.rotations', /is no array$/],
       [keyframe({ pose: { rotations: new Float32Array([0, NaN]) } }), 'keyframe.pose.rotations[1]', 'NaN is no finite number'],
       [keyframe({ pose: { rotations: 'none' } }), 'keyframe.pose.rotations', "'none' is no array"],
-      [keyframe({ mask: { joints: ['head'] } }), 'keyframe.mask.joints[0]', "'head' is no whole number from -2147483648 to 2147483647"],
+      [keyframe({ mask: { joints: ['head'] } }), 'keyframe.mask.joints[0]', "'head' is not a whole number from -2147483648 to 2147483647"],
       [keyframe({ time: '6' }), 'keyframe.time', "'6' is no finite number"],
       [keyframe({ hit: '1' }), 'keyframe.hit', "'1' is no finite number"],
       [keyframe({ pose: { rotations: ['0'] } }), 'keyframe.pose.rotations[0]', "'0' is no finite number"],
-      [keyframe({ mask: { joints: ['1'] } }), 'keyframe.mask.joints[0]', "'1' is no whole number from -2147483648 to 2147483647"],
+      [keyframe({ mask: { joints: ['1'] } }), 'keyframe.mask.joints[0]', "'1' is not a whole number from -2147483648 to 2147483647"],
       [keyframe({ id: 5 }), 'keyframe.id', '5 is no string'],
       [keyframe({ frame: 3 }), 'keyframe.frame', 'given beside time; there is one of frame, time, interval_after_previous'],
       [[{ config: {}, end_of_audio: {} }], 'end_of_audio', /^given beside config; there is one of config, audio, /],
       [[{ config: { allow_inexact_resume: 'no' } }], 'config.allow_inexact_resume', "'no' is no boolean"],
-      ...[1.5, -1, '1e3', '18446744073709551616', true, []].map((seed) => [[{ config: { seed } }], 'config.seed', / is no whole number from 0 to 18\d+$/]),
+      ...[1.5, -1, '1e3', '18446744073709551616', true, []].map((seed) => [[{ config: { seed } }], 'config.seed', / is not a whole number from 0 to 18\d+$/]),
       [[{ config: { seed: 2 ** 64 } }], 'config.seed', /; numbers above 2\^53 go as text$/],
       [[config, { keyframe: null }], 'keyframe', /^null is no Keyframe, /],
       [[config, { remove_keyframe: undefined }], 'remove_keyframe', /^undefined is no RemoveKeyframe, /],
@@ -75,7 +75,7 @@ test('a request that the API does not know is refused by its path', () =>
       });
     }
     const ranked = collect(client.generateTransition({ config: {}, frames: 9, rank_by: 'LIKELIHOOD' }));
-    await assert.rejects(ranked, { message: "rank_by: 'LIKELIHOOD' is no RankBy; did you mean RANK_BY_LIKELIHOOD?" });
+    await assert.rejects(ranked, { message: "rank_by: 'LIKELIHOOD' is not a RankBy; did you mean RANK_BY_LIKELIHOOD?" });
     await assert.rejects(collect(client.generateTransition()), { message: /^request: undefined is no GenerateTransitionRequest/ });
   }));
 

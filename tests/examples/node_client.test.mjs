@@ -52,7 +52,7 @@ test('a token is sent, read again for each call, and a wrong one refused', () =>
     await writeFile(tokens, tokenLine('secret', 'alice'));
     await withServer(['--tokens', tokens], async ({ address }) => {
       await assert.rejects(info(address), { code: 'UNAUTHENTICATED', message: /^a token is needed; send the metadata/ });
-      await assert.rejects(info(address, { token: 'guessed' }), { code: 'UNAUTHENTICATED', message: /^nobody here has that token/ });
+      await assert.rejects(info(address, { token: 'guessed' }), { code: 'UNAUTHENTICATED', message: /^that token is unknown/ });
       assert.ok((await info(address, { token: 'secret' })).models.length > 0);
       await withClient(address, { tokenFile: mine }, async (client) => {
         await assert.rejects(client.info(), { code: 'INVALID_ARGUMENT', message: `tokenFile: no file ${mine}` });
@@ -104,9 +104,9 @@ test('what only other options can mend is told at once, in one line', () =>
       await refused([address, address], elsewhere, wrongName);
       assert.ok((await info(address, { ...trusting, serverName: 'choreod' })).models.length > 0);
     });
-    await assert.rejects(info('127.0.0.1:1'), { code: 'UNAVAILABLE', message: '127.0.0.1:1: no server is reached: connection refused' });
+    await assert.rejects(info('127.0.0.1:1'), { code: 'UNAVAILABLE', message: '127.0.0.1:1: no server can be reached: connection refused' });
     const both = ['127.0.0.1:1', '127.0.0.1:2'];
-    await assert.rejects(info(both, { retry: 1 }), { code: 'UNAVAILABLE', message: '127.0.0.1:1, 127.0.0.1:2: no server is reached: connection refused' });
+    await assert.rejects(info(both, { retry: 1 }), { code: 'UNAVAILABLE', message: '127.0.0.1:1, 127.0.0.1:2: no server can be reached: connection refused' });
   }));
 
 test('options that cannot be used are named', () =>
@@ -117,9 +117,9 @@ test('options that cannot be used are named', () =>
     for (const [addresses, options, message] of [
       [[], {}, 'addresses: none is given'],
       ['localhost:70000', {}, 'addresses: localhost:70000: port 70000 is not in [1, 65535]'],
-      [far, { token: 'secret' }, `token: a token goes to ${far} over TLS alone`],
-      [`ipv4:127.0.0.1:1,${far}`, { token: 'secret' }, `token: a token goes to ipv4:127.0.0.1:1,${far} over TLS alone`],
-      [far, { tls: true, token: 'two words' }, 'token: it is no line of visible ASCII characters'],
+      [far, { token: 'secret' }, `token: a token is sent to ${far} only over TLS`],
+      [`ipv4:127.0.0.1:1,${far}`, { token: 'secret' }, `token: a token is sent to ipv4:127.0.0.1:1,${far} only over TLS`],
+      [far, { tls: true, token: 'two words' }, 'token: it is not one line of visible ASCII characters'],
       [far, { caCertificate: ca.cert }, `caCertificate: "${ca.cert}" needs TLS, which is off`],
       [far, { tls: true, caCertificate: join(folder, 'absent') }, `caCertificate: no file ${join(folder, 'absent')}`],
       [far, { tls: true, clientKey: own.key }, 'clientCertificate: missing; a certificate and its key go together'],
@@ -130,12 +130,12 @@ test('options that cannot be used are named', () =>
       [far, { tls: 'yes' }, "tls: 'yes' is no boolean"],
       [far, { token_file: 'x' }, 'token_file: no option; did you mean tokenFile?'],
       [far, { patience: 1 }, /^patience: no option; there are tls, caCertificate, /],
-      ['http://one:50051', {}, 'addresses: http://one:50051 is a URL; HOST:PORT is wanted, and the option tls for TLS'],
-      ['dns:///one', {}, 'addresses: dns:///one has no port; HOST:PORT is wanted'],
+      ['http://one:50051', {}, 'addresses: http://one:50051 is a URL; use HOST:PORT, and the option tls for TLS'],
+      ['dns:///one', {}, 'addresses: dns:///one has no port; use HOST:PORT'],
       [undefined, {}, 'addresses: undefined is no HOST:PORT'],
       [far, { tls: true, token: 'secret\n' }, 'token: it begins or ends with spaces or a newline; trim it'],
       [far, { tls: true, token: Buffer.from('secret') }, 'token: Buffer is no string'],
-      [other, { token: '' }, 'token: it is no line of visible ASCII characters'],
+      [other, { token: '' }, 'token: it is not one line of visible ASCII characters'],
       [far, { tls: true, caCertificate: await readFile(ca.key, 'utf8') }, /^caCertificate: the text holds no certificate in PEM: (?!.*-----)/s],
       [far, { tls: true, clientCertificate: own.cert, clientKey: await readFile(ca.key, 'utf8') }, /^clientKey: the text is not the key of (?!.*-----)/s],
     ]) {

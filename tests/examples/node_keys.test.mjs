@@ -45,7 +45,7 @@ test('a pose of the library is danced', async () => {
   const another = new ChoreoClient(process.env.CHOREO_SERVER);
   for await (const answer of another.streamDance([{ config: { frames: 60 } }, { keyframe: { id: 'a', time: 1, pose: kick } }])) assert.ok(answer);
   another.close();
-  assert.throws(() => libraryPose('kik', skeleton), { message: "libraryPose.pose: 'kik' is no pose of the library; did you mean kick?" });
+  assert.throws(() => libraryPose('kik', skeleton), { message: "libraryPose.pose: 'kik' is not a pose of the library; did you mean kick?" });
   for (const read of [() => libraryPose('kick'), () => readKeys({ keyframes: [] })]) assert.throws(read, { message: /^skeleton: undefined is none, as in / });
   assert.throws(() => readKeys('keys/no.json', skeleton), { message: "file: 'keys/no.json' is a path: read it, and give its text" });
 });
@@ -116,15 +116,15 @@ test('what cannot be read is named', () => {
     [{ pose: 'stand' }, '.time', 'is missing, and so is frame'],
     [{ time: 1, frame: 2, pose: 'stand' }, '.time', 'stands beside frame'],
     [{ time: '9c', pose: 'stand' }, '.time', "'9c' is not a number; counts need a song's beats: say seconds"],
-    [{ time: 1, pose: 'stnad' }, '.pose', "'stnad' is no pose of the library; "],
+    [{ time: 1, pose: 'stnad' }, '.pose', "'stnad' is not a pose of the library; "],
     [{ time: 1, poze: 'stand' }, '.poze', 'is not known; did you mean pose?'],
     [{ time: 1 }, '.rotations', 'is missing, and so is pose'],
     [{ time: 1, rotations: [[0, 0, 0]] }, '.rotations', 'is not one vector for each of 24 joints'],
     [{ time: 1, pose: 'stand', place: [1] }, '.place', '[ 1 ] is not a list of 2 numbers'],
     [{ time: 1, pose: 'stand', place: 'here' }, '.place', "'here' is not a list of 2 numbers, [x, z] in metres; leave it out, and the pose is taken wherever the dancer is"],
     [{ time: 1, joints: { left_knee: [1, 2, 3] } }, '.joints.left_knee', 'is not a number'],
-    [{ time: 1, joints: { tail: [1, 2, 3] } }, '.joints.tail', "'tail' is no joint of smpl24"],
-    [{ time: 1, pose: 'stand', joints: ['tail'] }, '.joints', "'tail' is no joint of smpl24"],
+    [{ time: 1, joints: { tail: [1, 2, 3] } }, '.joints.tail', "'tail' is not a joint of smpl24"],
+    [{ time: 1, pose: 'stand', joints: ['tail'] }, '.joints', "'tail' is not a joint of smpl24"],
     [{ frame: 1, pose: 'stand', hold: 1 }, '.hold', 'goes with time'],
     [{ time: 1, pose: 'stand', hold: 61 }, '.hold', '61 s, must be 0.1 to 60'],
   ]) {

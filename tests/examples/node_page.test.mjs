@@ -215,7 +215,7 @@ test('the back end hears of its wrong orders, and by default so does its console
     past: [{ seconds: -3 }, 'seconds: -3 is no number above 0'],
     still: [{ ...silent, speed: 0 }, 'speed: 0 is no number above 0'],
     path: [{ ...silent, music: 'song.mp3' }, "music: 'song.mp3' is text; give the file's bytes, as readFile() does"],
-    seed: [{ ...silent, config: { seed: 'abc' } }, "config.seed: 'abc' is no whole number from 0 to 18446744073709551615"],
+    seed: [{ ...silent, config: { seed: 'abc' } }, "config.seed: 'abc' is not a whole number from 0 to 18446744073709551615"],
   };
   const begin = ({ searchParams }) => {
     const name = searchParams.get('wrong');
@@ -255,7 +255,7 @@ test('what a page may not have is refused, with a status', () =>
         return [answer.status, (await answer.text()).trim()];
       };
       assert.deepEqual(await status(`${url}?stranger`), [401, 'log in first']);
-      assert.deepEqual(await status(`${url}?seed=x`), [400, "config.seed: 'x' is no whole number from 0 to 18446744073709551615"]);
+      assert.deepEqual(await status(`${url}?seed=x`), [400, "config.seed: 'x' is not a whole number from 0 to 18446744073709551615"]);
       const refused = (promise) => promise.then(assert.fail, ({ status, code, message }) => [status, code, message.slice(0, 12)]);
       assert.deepEqual(await refused(connectDance(`${url}?stranger`).begun), [401, undefined, 'log in first']);
       assert.deepEqual(await refused(connectDance(`${url}?seed=x`).begun), [400, 'INVALID_ARGUMENT', 'config.seed:']);
@@ -267,7 +267,7 @@ test('what a page may not have is refused, with a status', () =>
       assert.equal(joints.length, 24);
       const page = connectDance(url);
       await page.begun;
-      await assert.rejects(page.setKey({ pose: 'kik' }), /^Error: keyframes\[0\]\.pose: 'kik' is no pose of the library; .*kick/);
+      await assert.rejects(page.setKey({ pose: 'kik' }), /^Error: keyframes\[0\]\.pose: 'kik' is not a pose of the library; .*kick/);
       assert.deepEqual(await refused(page.setKey({ pose: 'kik' })), [400, 'INVALID_ARGUMENT', 'keyframes[0]']);
       await assert.rejects(page.setKey({ rotations: { tail: [0, 0, 1] } }), /^Error: rotations\.tail: no joint/);
       page.close();

@@ -161,7 +161,7 @@ class ClientTest(unittest.TestCase):
             tokens.write_text(token_line("secret", "alice"))
             with Server("--tokens", tokens) as server:
                 self.assert_refused("UNAUTHENTICATED", "^a token is needed; send the metadata", info, server.address)
-                self.assert_refused("UNAUTHENTICATED", "^nobody here has that token", info, server.address, token="guessed")
+                self.assert_refused("UNAUTHENTICATED", "^that token is unknown", info, server.address, token="guessed")
                 self.assertTrue(info(server.address, token="secret").models)
                 with Client(server.address, token_file=mine) as client:
                     self.assert_refused("INVALID_ARGUMENT", f"^token_file: no file {mine}$", client.info)
@@ -217,17 +217,17 @@ class ClientTest(unittest.TestCase):
             for addresses, options, message in (
                 ([], {}, "addresses: none is given$"),
                 ("localhost:70000", {}, r"addresses: localhost:70000: port 70000 is not in \[1, 65535\]$"),
-                (far, {"token": "secret"}, f"token: a token goes to {far} over TLS alone$"),
-                (f"ipv4:127.0.0.1:1,{far}", {"token": "secret"}, "token: a token goes to ipv4:.* over TLS alone$"),
-                (far, {"tls": True, "token": "two words"}, "token: it is no line of visible ASCII characters$"),
+                (far, {"token": "secret"}, f"token: a token is sent to {far} only over TLS$"),
+                (f"ipv4:127.0.0.1:1,{far}", {"token": "secret"}, "token: a token is sent to ipv4:.* only over TLS$"),
+                (far, {"tls": True, "token": "two words"}, "token: it is not one line of visible ASCII characters$"),
                 (far, {"ca_certificate": own}, f'ca_certificate: "{own}" needs TLS, which is off$'),
                 (far, {"tls": True, "ca_certificate": absent}, f"ca_certificate: no file {absent}$"),
                 (far, {"tls": True, "client_key": own_key}, "client_certificate: missing; a certificate and its key go together$"),
                 (far, {"tls": True, "ca_certificate": own_key}, f"ca_certificate: {own_key} holds no certificate in PEM"),
                 (far, {"tls": True, "client_certificate": own, "client_key": authority.key}, f"client_key: {authority.key} is not the key of {own}"),
                 (far, {"silence_s": 1}, "silence_s: 1 s is neither 0 nor at least 2 s$"),
-                ("http://one:50051", {}, "addresses: http://one:50051 is a URL; HOST:PORT is wanted, and the option tls for TLS$"),
-                ("dns:///one", {}, "addresses: dns:///one has no port; HOST:PORT is wanted$"),
+                ("http://one:50051", {}, "addresses: http://one:50051 is a URL; use HOST:PORT, and the option tls for TLS$"),
+                ("dns:///one", {}, "addresses: dns:///one has no port; use HOST:PORT$"),
                 (far, {"tls": True, "token": "secret\n"}, "token: it begins or ends with spaces or a newline; strip it$"),
                 (far, {"tls": True, "token": b"secret"}, "token: a bytes is no str$"),
                 (far, {"ca_certificate": own.read_text()}, 'ca_certificate: "the text" needs TLS, which is off$'),
@@ -300,8 +300,8 @@ class ClientTest(unittest.TestCase):
             self.assertRegex(error.violations[0].description, "^" + what)
 
     def test_calls_wait_for_a_server_and_give_up_in_time(self):
-        error = self.assert_refused("UNAVAILABLE", "^127.0.0.1:1: no server is reached: connection refused$", info, "127.0.0.1:1", retry_s=0.3)
-        self.assert_refused("UNAVAILABLE", "^127.0.0.1:1, 127.0.0.1:2: no server is reached: connection refused$", info, ["127.0.0.1:1", "127.0.0.1:2"], retry_s=0.3)
+        error = self.assert_refused("UNAVAILABLE", "^127.0.0.1:1: no server can be reached: connection refused$", info, "127.0.0.1:1", retry_s=0.3)
+        self.assert_refused("UNAVAILABLE", "^127.0.0.1:1, 127.0.0.1:2: no server can be reached: connection refused$", info, ["127.0.0.1:1", "127.0.0.1:2"], retry_s=0.3)
         self.assertEqual(error.violations, [])
         begun = time.monotonic()
         with Client("127.0.0.1:1", retry_s=60) as client:

@@ -74,7 +74,7 @@ class KeysTest(unittest.TestCase):
         self.assertFalse(kick.HasField("root_position"))
         with Client(os.environ["CHOREO_SERVER"]) as client:
             list(client.stream_dance([{"config": {"frames": 60}}, {"keyframe": {"id": "a", "time": 1, "pose": kick}}]))
-        with self.assertRaisesRegex(ChoreoError, r"^library_pose\.pose: 'kik' is no pose of the library; did you mean kick\?$"):
+        with self.assertRaisesRegex(ChoreoError, r"^library_pose\.pose: 'kik' is not a pose of the library; did you mean kick\?$"):
             library_pose("kik", self.skeleton)
 
     def test_a_jump_without_a_place_which_stands_is_warned_of_once_a_key(self):
@@ -120,15 +120,15 @@ class KeysTest(unittest.TestCase):
             ({"pose": "stand"}, ".time", "is missing, and so is frame"),
             ({"time": 1, "frame": 2, "pose": "stand"}, ".time", "stands beside frame"),
             ({"time": "9c", "pose": "stand"}, ".time", "'9c' is not a number; counts need a song's beats: say seconds"),
-            ({"time": 1, "pose": "stnad"}, ".pose", "'stnad' is no pose of the library; did you mean stand?"),
+            ({"time": 1, "pose": "stnad"}, ".pose", "'stnad' is not a pose of the library; did you mean stand?"),
             ({"time": 1, "poze": "stand"}, ".poze", "is not known; did you mean pose?"),
             ({"time": 1}, ".rotations", "is missing, and so is pose"),
             ({"time": 1, "rotations": [[0, 0, 0]]}, ".rotations", "[[0, 0, 0]] is not one vector for each of 24 joints"),
             ({"time": 1, "pose": "stand", "place": [1]}, ".place", "[1] is not a list of 2 numbers"),
             ({"time": 1, "pose": "stand", "place": "here"}, ".place", "'here' is not a list of 2 numbers, [x, z] in metres; leave it out, and the pose is taken wherever"),
             ({"time": 1, "joints": {"left_knee": [1, 2, 3]}}, ".joints.left_knee", "[1, 2, 3] is not a number"),
-            ({"time": 1, "joints": {"tail": [1, 2, 3]}}, ".joints.tail", "'tail' is no joint of smpl24"),
-            ({"time": 1, "pose": "stand", "joints": ["tail"]}, ".joints", "'tail' is no joint of smpl24"),
+            ({"time": 1, "joints": {"tail": [1, 2, 3]}}, ".joints.tail", "'tail' is not a joint of smpl24"),
+            ({"time": 1, "pose": "stand", "joints": ["tail"]}, ".joints", "'tail' is not a joint of smpl24"),
             ({"frame": 1, "pose": "stand", "hold": 1}, ".hold", "goes with time"),
             ({"time": 1, "pose": "stand", "hold": 61}, ".hold", "61 s, must be 0.1 to 60"),
         ):

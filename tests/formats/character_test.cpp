@@ -291,7 +291,7 @@ TEST_F(CharacterTest, RefusesUnusableCharacters) {
     glb.document["nodes"] = json::array();
     glb.document.erase("skins");
   });
-  refuse("is no binary glTF", [](Glb& glb) { glb.document = json::array(); });
+  refuse("is not a binary glTF", [](Glb& glb) { glb.document = json::array(); });
 }
 
 TEST_F(CharacterTest, RefusesInvalidFiles) {
@@ -302,7 +302,7 @@ TEST_F(CharacterTest, RefusesInvalidFiles) {
     std::ofstream(folder_ / "bad.glb", std::ios::binary) << content;
     ExpectError(ErrorCode::kInvalidArgument, message, [&] { CharacterFile(folder_ / "bad.glb"); });
   };
-  refuse("bad.glb: is no binary glTF: bad header", "");
+  refuse("bad.glb: is not a binary glTF: bad header", "");
   refuse("version 1, must be 2", bytes.substr(0, 4) + std::string("\1\0\0\0", 4) + bytes.substr(8));
   refuse("a chunk of 4294967295 bytes",
          bytes.substr(0, 12) + std::string(4, '\xff') + bytes.substr(16));

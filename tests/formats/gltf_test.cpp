@@ -235,14 +235,15 @@ TEST_F(GltfTest, RefusesWhatItCannotRead) {
     glb.document["animations"][0]["extras"]["fps"] = 1000;
     while (glb.document["nodes"].size() < 21'025) glb.document["nodes"].push_back({{"name", "a"}});
   });
-  refuse("is no binary glTF", [](Glb& glb) { glb.document["buffers"][0]["uri"] = "/etc/passwd"; });
-  refuse("is no binary glTF", [](Glb& glb) { glb.document = "nothing"; });
+  refuse("is not a binary glTF",
+         [](Glb& glb) { glb.document["buffers"][0]["uri"] = "/etc/passwd"; });
+  refuse("is not a binary glTF", [](Glb& glb) { glb.document = "nothing"; });
   refuse("its names do not say which bone is the", [](Glb& glb) {
     for (json& node : glb.document["nodes"]) node["name"] = "bone";
   });
 
   std::ofstream(folder_ / "text.glb") << "no glTF";
-  ExpectError(ErrorCode::kInvalidArgument, "text.glb: is no binary glTF",
+  ExpectError(ErrorCode::kInvalidArgument, "text.glb: is not a binary glTF",
               [&] { ReadGlb(folder_ / "text.glb"); });
   ExpectError(ErrorCode::kNotFound, "absent.glb", [&] { ReadGlb(folder_ / "absent.glb"); });
   ExpectError(ErrorCode::kInternal, "cannot be written",
@@ -262,7 +263,7 @@ TEST_F(GltfTest, SurvivesTruncation) {
   const std::string bytes{std::istreambuf_iterator<char>(file), {}};
   for (size_t length = 0; length < bytes.size(); length += 1 + bytes.size() / 37) {
     std::ofstream(folder_ / "cut.glb", std::ios::binary) << bytes.substr(0, length);
-    ExpectError(ErrorCode::kInvalidArgument, "is no binary glTF",
+    ExpectError(ErrorCode::kInvalidArgument, "is not a binary glTF",
                 [&] { ReadGlb(folder_ / "cut.glb"); });
   }
 }

@@ -193,10 +193,10 @@ TEST(PickleTest, ReadsDictsOfOtherClassesAndKeys) {
 }
 
 TEST(PickleTest, OnlyDictsOfArraysAndNumbers) {
-  Refused("", "no pickle of protocol 0 to 5");
+  Refused("", "not a pickle of protocol 0 to 5");
   Refused("}", "the file ends within it");
-  Refused("no pickle", "no pickle of protocol 0 to 5");
-  Refused("\x80\x06}.", "no pickle of protocol 0 to 5");
+  Refused("no pickle", "not a pickle of protocol 0 to 5");
+  Refused("\x80\x06}.", "not a pickle of protocol 0 to 5");
   Refused("\x80\x02)."s, "expected a dict");
   Refused("\x80\x02."s, "nothing on the stack");
   Refused("\x80\x02}u."s, "no mark on the stack");

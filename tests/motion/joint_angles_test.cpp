@@ -75,7 +75,7 @@ TEST(JointAngles, ErrorsNameJointValueAndRange) {
   refused("neck", {0, 0, 95}, "neck is at 95 degrees about z, must be -80 to 80");
   refused("left_elbow", {1, 2, 3}, "left_elbow takes one number, the degrees of its bend");
   refused("neck", {1}, "neck takes three numbers, degrees about x, y and z; there are 1");
-  refused("elbow", {1}, "--set: \"elbow\" is no joint of smpl24, which has pelvis, left_hip");
+  refused("elbow", {1}, "--set: \"elbow\" is not a joint of smpl24, which has pelvis, left_hip");
 }
 
 }  // namespace choreo::joint_angles_test

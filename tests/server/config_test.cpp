@@ -226,8 +226,8 @@ TEST(ServerConfigTest, RefusesAnEmptyFileName) {
   ::unsetenv("CHOREO_TOKENS");
   const std::string message = testing::internal::GetCapturedStderr();
   EXPECT_EQ(message, "choreod: " + path +
-                         ":1: --tokens: is empty; leave it out where none is wanted\n"
-                         "choreod: --tokens: is empty; leave it out where none is wanted\n");
+                         ":1: --tokens: is empty; leave it out for none\nchoreod: --tokens: is "
+                         "empty; leave it out for none\n");
 }
 
 TEST(ServerConfigTest, ListsValidChoices) {
@@ -269,7 +269,7 @@ TEST(ServerConfigTest, ErrorsAreOfOneShape) {
             "choreod: --log-format: \"xml\" is none of text, json\n");
   EXPECT_EQ(
       said({"--model", "free", "--models", "here"}),
-      "choreod: --model: \"free\" is a model that ships; --checkpoint and --models exclude it\n");
+      "choreod: --model: \"free\" is a shipped model; it excludes --checkpoint and --models\n");
 }
 
 // The same holds for settings in the file.

@@ -381,9 +381,9 @@ INSTANTIATE_TEST_SUITE_P(
                     ".velocity_factors.speeds[0]: -0.01 m a frame is not in [0, 0.5]"},
         BadControls{"HugeSpeed", Speed(3), ".velocity_factors.speeds[0]: 3 m a frame is not in"},
         BadControls{"UnknownPart", Factors({1}, {static_cast<v1::BodyPart>(9)}),
-                    ".velocity_factors.parts[0]: 9 is no BodyPart"},
+                    ".velocity_factors.parts[0]: 9 is not a BodyPart"},
         BadControls{"NoPart", Factors({1}, {v1::BODY_PART_UNSPECIFIED}),
-                    ".velocity_factors.parts[0]: 0 is no BodyPart"},
+                    ".velocity_factors.parts[0]: 0 is not a BodyPart"},
         BadControls{"PartTwice", Factors({1, 1}, {v1::BODY_PART_TRUNK, v1::BODY_PART_TRUNK}),
                     ".velocity_factors.parts[1]: trunk is there twice"},
         BadControls{"TooFewFactors", Factors({1, 2, 3}, {}, {0, 5}),
@@ -395,7 +395,8 @@ INSTANTIATE_TEST_SUITE_P(
             "UnknownReference", Reference("frantic"),
             ".velocity_factors.reference: \"frantic\" is none of the model's, median, calm"},
         BadControls{"ReferenceOfSpeeds", ReferenceOfSpeeds("calm"),
-                    ".velocity_factors.reference: \"calm\" stands beside speeds, which have none"},
+                    ".velocity_factors.reference: \"calm\" cannot be combined with speeds, which "
+                    "have none"},
         BadControls{"FactorsAndSpeeds", SpeedsAndFactors(),
                     ".velocity_factors.speeds: and factors exclude each other"}),
     [](const auto& suite) { return std::string(suite.param.name); });

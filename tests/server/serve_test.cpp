@@ -283,7 +283,7 @@ TEST_F(ServeTest, StopsAtOnceWhenSignalledTwice) {
   // The interrupted call is logged nevertheless.
   EXPECT_THAT(outcome.said,
               ContainsRegex("\"method\":\"StreamDance\".*\"status\":\"UNAVAILABLE\""));
-  EXPECT_THAT(outcome.said, HasSubstr("the server was told to leave at once"));
+  EXPECT_THAT(outcome.said, HasSubstr("the server was told to exit immediately"));
 }
 
 /// The part of systemd that receives a service's notifications.

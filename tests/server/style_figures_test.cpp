@@ -33,7 +33,7 @@ TEST(StyleFigures, ReachClients) {
   EXPECT_FALSE(told.style_recognition().shows());
   EXPECT_EQ(told.style_recognition().recognised_percent(), 7.9);
   EXPECT_EQ(client::DescribeStyles(wire::FromProto(told).style_figures),
-            "They do not show: in 8 % of seconds a classifier recognises the style asked for, by "
+            "They do not show: in 8 % of seconds a classifier recognises the requested style, by "
             "chance in 6 %.");
 }
 

@@ -175,7 +175,7 @@ INSTANTIATE_TEST_SUITE_P(
         {"NoFrames", [](auto& r) { r.clear_frames(); }, "frames", "0"},
         {"TooManyFrames", With("frames: 1801"), "frames", "1800"},
         {"TooManyCandidates", With("candidates: 33"), "candidates", "32"},
-        {"UnknownRanking", With("rank_by: 7"), "rank_by", "7 is no RankBy; 0 to 2 are"},
+        {"UnknownRanking", With("rank_by: 7"), "rank_by", "7 is not a RankBy; 0 to 2 are"},
         {"UnknownModel", With("config { model: 'nope' }"), "config.model", "\"fake\"",
          grpc::StatusCode::NOT_FOUND},
         {"GenerateUntil", With("config { generate_until: 5 }"), "config.generate_until",

@@ -307,7 +307,7 @@ TEST_F(StudioTest, RefusesInvalidMusic) {
   page.Say(3, dance);
   Request piece;
   piece.mutable_live()->mutable_audio()->set_data("abc");
-  EXPECT_EQ(failure(piece), "audio.data: 3 bytes are no whole floats");
+  EXPECT_EQ(failure(piece), "audio.data: 3 bytes are not whole floats");
   page.Say(3, dance);
   Request controls;
   controls.mutable_live()->mutable_controls();

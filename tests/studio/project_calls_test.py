@@ -121,7 +121,7 @@ class ProjectCalls(unittest.TestCase):
             ({"keyframes": [{**key, "time": 5}]}, "keyframes[0]"),
             ({"keyframes": [{"time": 1, "pose": "star_jump", "place": [0, 0], "hold": 0.9}]}, 'project:keyframes[0].hold: key "key1": the body is'),
             ({"seconds": None}, "project:seconds: is missing, and there is no song"),
-            ({"seconds": 601}, "project:seconds: 601 is beyond 600, the most that is danced"),
+            ({"seconds": 601}, "project:seconds: 601 is beyond 600, the longest allowed"),
             ({"style": "foxtrot"}, 'project:style: "foxtrot"'),
             ({"path": {"points": [{"time": 9, "x": 0, "z": 0}, {"time": 10, "x": 1, "z": 0}]}}, "project:path:points[0]: the first point at 9 s"),
             ({"path": {"points": [{"time": 0, "x": 0, "z": 0}, {"time": 1, "x": 2e4, "z": 0}]}}, "project:path:points[1].x"),

@@ -95,7 +95,7 @@ function whole(type, value, path) {
   const number = Number.isSafeInteger(value) || typeof value === 'bigint' || isText || isLong ? BigInt(String(value)) : undefined;
   if (number >= least && number <= most) return typeof value === 'number' ? value : String(value);
   const asText = Number.isInteger(value) && number === undefined ? '; numbers above 2^53 go as text' : '';
-  throw invalid(path, `${quoted(value)} is no whole number from ${least} to ${most}${asText}`);
+  throw invalid(path, `${quoted(value)} is not a whole number from ${least} to ${most}${asText}`);
 }
 
 function bytes(value, path, encoding) {

@@ -73,5 +73,5 @@ const plain = { ECONNREFUSED: 'connection refused', ETIMEDOUT: 'nobody answers',
 /** Makes the error for an unreachable server. Callers add its address. */
 export function noAnswer(reason) {
   const [, name] = /^connect (\w+) /.exec(reason) ?? [];
-  return Object.assign(unavailable(`no server is reached: ${plain[name] ?? reason}`), { isAway: true });
+  return Object.assign(unavailable(`no server can be reached: ${plain[name] ?? reason}`), { isAway: true });
 }

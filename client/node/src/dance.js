@@ -184,7 +184,7 @@ class Progress {
     }
     const { frame_rate, skeleton } = this.#header;
     if (header.frame_rate !== frame_rate || header.skeleton.joint_names.length !== skeleton.joint_names.length) {
-      const details = 'the server that should go on with the dance has another frame rate or body';
+      const details = 'the server that should resume the dance has another frame rate or body';
       throw new ChoreoError({ code: grpc.status.DATA_LOSS, details });
     }
     // Servers compare fingerprints only if there is a continuation.

@@ -36,7 +36,7 @@ export function readAndWarn(file, skeleton, warn) {
   const read = keys.map((key, at) => readKey(key, `keyframes[${at}]`, `key${at + 1}`, skeleton, warn));
   const ids = new Set();
   read.forEach(({ key: { id } }, at) => {
-    if (ids.has(id)) throw invalid(`keyframes[${at}].id`, `"${id}" stands for an earlier key already`);
+    if (ids.has(id)) throw invalid(`keyframes[${at}].id`, `"${id}" is already the id of an earlier key`);
     ids.add(id);
   });
   const starts = read.flatMap(({ key }) => key.time ?? []).sort((a, b) => a - b);
@@ -75,7 +75,7 @@ function readKey(value, field, name, skeleton, warn) {
   }
   const { id = name, hit, hands, joints, hold } = value;
   const when = ['time', 'frame'].filter((member) => member in value);
-  if (when.length !== 1) throw invalid(`${field}.time`, when.length ? 'stands beside frame; only one may be there' : 'is missing, and so is frame');
+  if (when.length !== 1) throw invalid(`${field}.time`, when.length ? 'cannot be combined with frame' : 'is missing, and so is frame');
   if (typeof id !== 'string' || id === '') throw invalid(`${field}.id`, `${quoted(id)} is not a name`);
   const key = { id, [when[0]]: moment(value[when[0]], when[0], `${field}.${when[0]}`) };
   if (hit !== undefined) {
@@ -114,7 +114,7 @@ function readPose(value, field, skeleton) {
   for (const member of ['place', 'facing']) if (member in value && !('pose' in value)) throw invalid(`${field}.${member}`, 'goes with pose');
   const count = skeleton.joint_names.length;
   if ('rotations' in value) {
-    if ('pose' in value) throw invalid(`${field}.rotations`, 'stands beside pose; only one may be there');
+    if ('pose' in value) throw invalid(`${field}.rotations`, 'cannot be combined with pose');
     if (!Array.isArray(value.rotations) || value.rotations.length !== count) throw invalid(`${field}.rotations`, `${quoted(value.rotations)} is not one vector for each of ${count} joints`);
     const rotations = value.rotations.map((one, at) => rotationOf(one, `${field}.rotations[${at}]`));
     return { rotations, root: 'root_position' in value ? vector(value.root_position, 3, `${field}.root_position`) : undefined };
@@ -173,7 +173,7 @@ function rotationOf(value, field) {
 
 function jointOf(name, { name: body, joint_names: names }, field) {
   const joint = names.indexOf(name);
-  if (joint < 0) throw invalid(field, `${quoted(name)} is no joint of ${body || 'the skeleton'}; ${hint(String(name), names)}`);
+  if (joint < 0) throw invalid(field, `${quoted(name)} is not a joint of ${body || 'the skeleton'}; ${hint(String(name), names)}`);
   return joint;
 }
 

@@ -49,10 +49,10 @@ export function checkOptions(addresses, given) {
 // Refuses addresses that gRPC would misread as a host name, or with another port.
 function checkAddress(address) {
   if (typeof address !== 'string' || address === '') throw invalid('addresses', `${quoted(address)} is no HOST:PORT`);
-  if (/^https?:/i.test(address)) throw invalid('addresses', `${address} is a URL; HOST:PORT is wanted, and the option tls for TLS`);
+  if (/^https?:/i.test(address)) throw invalid('addresses', `${address} is a URL; use HOST:PORT, and the option tls for TLS`);
   if (/^(unix|unix-abstract|xds):/.test(address)) return;
   const port = /:(\d+)$/.exec(address)?.[1];
-  if (port === undefined) throw invalid('addresses', `${address} has no port; HOST:PORT is wanted`);
+  if (port === undefined) throw invalid('addresses', `${address} has no port; use HOST:PORT`);
   if (Number(port) < 1 || Number(port) > mostPort) throw invalid('addresses', `${address}: port ${port} is not in [1, ${mostPort}]`);
 }
 
@@ -71,14 +71,14 @@ function checkToken(addresses, { token, tokenFile, tls }) {
   const name = token ? 'token' : 'tokenFile';
   if (token && tokenFile) throw invalid('token', 'given beside tokenFile; one of them is sent');
   const far = addresses.find((address) => !isOfThisMachine(address));
-  if (!tls && far) throw invalid(name, `a token goes to ${far} over TLS alone`);
+  if (!tls && far) throw invalid(name, `a token is sent to ${far} only over TLS`);
 }
 
 // Checks a token. Errors never quote it.
 function requireToken(field, what, token) {
   if (token.length > mostTokenBytes) throw invalid(field, `${what} has ${token.length} bytes, of at most ${mostTokenBytes}`);
   if (token !== token.trim()) throw invalid(field, `${what} begins or ends with spaces or a newline; trim it`);
-  if (!/^[!-~]+$/.test(token)) throw invalid(field, `${what} is no line of visible ASCII characters`);
+  if (!/^[!-~]+$/.test(token)) throw invalid(field, `${what} is not one line of visible ASCII characters`);
 }
 
 function read(field, path) {

@@ -21,6 +21,6 @@ export function poses() {
 /** Finds the pose of this name. Throws ChoreoError, naming `field`, if there is none. */
 export function find(name, field) {
   const found = poses().find(({ id }) => id === name);
-  if (!found) throw invalid(field, `${quoted(name)} is no pose of the library; ${hint(String(name), poses().map(({ id }) => id))}`);
+  if (!found) throw invalid(field, `${quoted(name)} is not a pose of the library; ${hint(String(name), poses().map(({ id }) => id))}`);
   return found;
 }

@@ -122,7 +122,7 @@ def _whole(value, path, least, most):
     except TypeError:
         number = None
     if number is None or isinstance(value, bool) or not least <= number <= most:
-        raise invalid(path, f"{quoted(value)} is no whole number from {least} to {most}")
+        raise invalid(path, f"{quoted(value)} is not a whole number from {least} to {most}")
     return number
 
 

@@ -36,7 +36,7 @@ def explained(error, server, options):
         return error
     reason = re.sub(r".*(?:Failed to connect to remote host|[A-Z]+: \S+): ", "", (away[1] or "").strip(), flags=re.DOTALL)
     # Its health check answers, so it is reached.
-    told = ChoreoError("UNAVAILABLE", _LEAVING if reason.endswith("unhealthy") else f"no server is reached: {reason.lower() or 'nobody answers'}")
+    told = ChoreoError("UNAVAILABLE", _LEAVING if reason.endswith("unhealthy") else f"no server can be reached: {reason.lower() or 'nobody answers'}")
     told.is_away = True
     told.is_leaving = reason.endswith("unhealthy")
     return told

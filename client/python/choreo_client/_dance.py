@@ -175,7 +175,7 @@ class _Progress:
             self._fingerprint = header.fingerprint
             return True
         if header.frame_rate != self._header.frame_rate or header.skeleton.joint_names != self._header.skeleton.joint_names:
-            raise ChoreoError("DATA_LOSS", "the server that should go on with the dance has another frame rate or body")
+            raise ChoreoError("DATA_LOSS", "the server that should resume the dance has another frame rate or body")
         # Servers compare fingerprints only if there is a continuation.
         exact = header.exact_resume
         if self._continuation is None:

@@ -46,7 +46,7 @@ def read_keys(file: typing.Union[str, bytes, typing.Mapping[str, typing.Any]], s
     ids = set()
     for at, (key, _, lost_jump) in enumerate(read):
         if key["id"] in ids:
-            raise invalid(f"keyframes[{at}].id", f'"{key["id"]}" stands for an earlier key already')
+            raise invalid(f"keyframes[{at}].id", f'"{key["id"]}" is already the id of an earlier key')
         ids.add(key["id"])
         if lost_jump and _sets_feet(key.get("mask"), skeleton):
             warnings.warn(f'key "{key["id"]}": {lost_jump}', stacklevel=2)
@@ -98,7 +98,7 @@ def _key(value, field, name, skeleton):
         raise invalid(f"{field}.id", f"{quoted(key['id'])} is not a name")
     when = [member for member in ("time", "frame") if member in value]
     if len(when) != 1:
-        raise invalid(f"{field}.time", "stands beside frame; only one may be there" if when else "is missing, and so is frame")
+        raise invalid(f"{field}.time", "cannot be combined with frame" if when else "is missing, and so is frame")
     key[when[0]] = _moment(value[when[0]], when[0], f"{field}.{when[0]}")
     if "hit" in value:
         key["hit"] = _number(value["hit"], f"{field}.hit")
@@ -136,7 +136,7 @@ def _pose(value, field, skeleton):
             raise invalid(f"{field}.{member}", "goes with pose")
     if "rotations" in value:
         if "pose" in value:
-            raise invalid(f"{field}.rotations", "stands beside pose; only one may be there")
+            raise invalid(f"{field}.rotations", "cannot be combined with pose")
         rotations = value["rotations"]
         if not isinstance(rotations, list) or len(rotations) != len(skeleton.joint_names):
             raise invalid(f"{field}.rotations", f"{quoted(rotations)} is not one vector for each of {len(skeleton.joint_names)} joints")
@@ -233,7 +233,7 @@ def _vector(value, size, field):
 def _joint(name, skeleton, field):
     names = list(skeleton.joint_names)
     if name not in names:
-        raise invalid(field, f"{quoted(name)} is no joint of {skeleton.name or 'the skeleton'}; {hint(name, names)}")
+        raise invalid(field, f"{quoted(name)} is not a joint of {skeleton.name or 'the skeleton'}; {hint(name, names)}")
     return names.index(name)
 
 

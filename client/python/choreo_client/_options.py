@@ -82,7 +82,7 @@ class Options:
         name = "token_file" if self.token is None else "token"
         far = [address for address in addresses if not _is_of_this_machine(address)]
         if far and not self.tls:
-            raise invalid(name, f"a token goes to {far[0]} over TLS alone")
+            raise invalid(name, f"a token is sent to {far[0]} only over TLS")
         if self.token is not None:
             _require_token("token", "it", self.token)
 
@@ -154,12 +154,12 @@ def _check_address(address):
     if not isinstance(address, str) or not address:
         raise invalid("addresses", f"{address!r} is no HOST:PORT")
     if re.match("(?i)https?:", address):
-        raise invalid("addresses", f"{address} is a URL; HOST:PORT is wanted, and the option tls for TLS")
+        raise invalid("addresses", f"{address} is a URL; use HOST:PORT, and the option tls for TLS")
     if re.match("(unix|unix-abstract|xds):", address):
         return
     port = re.search(r":([0-9]+)$", address)
     if port is None:
-        raise invalid("addresses", f"{address} has no port; HOST:PORT is wanted")
+        raise invalid("addresses", f"{address} has no port; use HOST:PORT")
     if not 1 <= int(port[1]) <= MOST_PORT:
         raise invalid("addresses", f"{address}: port {port[1]} is not in [1, {MOST_PORT}]")
 
@@ -186,7 +186,7 @@ def _require_token(field, what, token):
     if token != token.strip():
         raise invalid(field, f"{what} begins or ends with spaces or a newline; strip it")
     if not re.fullmatch(r"[!-~]+", token):
-        raise invalid(field, f"{what} is no line of visible ASCII characters")
+        raise invalid(field, f"{what} is not one line of visible ASCII characters")
 
 
 def _require_certificate(field, pem):

@@ -39,4 +39,4 @@ def find(name, field):
     for one in poses():
         if one.id == name:
             return one
-    raise invalid(field, f"{name!r} is no pose of the library; {hint(name, [one.id for one in poses()])}")
+    raise invalid(field, f"{name!r} is not a pose of the library; {hint(name, [one.id for one in poses()])}")

@@ -92,7 +92,7 @@ void VelocityTrack::Validate(const VelocityRequest& request, const ModelInfo& mo
   const std::string& reference = request.reference;
   if (absolute && !reference.empty())
     throw InvalidArgument(field + ".reference",
-                          '"' + reference + "\" stands beside speeds, which have none");
+                          '"' + reference + "\" cannot be combined with speeds, which have none");
   if (!absolute && FindReference(model, reference) == nullptr) {
     const std::string known = Joined(model.velocity_references, &VelocityReference::name);
     throw InvalidArgument(field + ".reference", '"' + reference + "\" is none of the model's, " +

@@ -135,7 +135,7 @@ Table ScoreStudy(const std::filesystem::path& key, std::span<const std::filesyst
   const auto parse = [](const std::filesystem::path& path) {
     const Json json = Json::parse(ReadFile(path), nullptr, /*allow_exceptions=*/false);
     if (!json.is_object() || !json.contains("study"))
-      throw InvalidArgument(path.string(), "is no file of a study");
+      throw InvalidArgument(path.string(), "is not a file of a study");
     return json;
   };
   const Json study = parse(key);

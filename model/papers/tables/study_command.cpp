@@ -58,8 +58,7 @@ void Score(const StudyArguments& arguments) {
 
 void AddStudyCommand(CLI::App& app) {
   auto arguments = std::make_shared<StudyArguments>();
-  CLI::App* study =
-      app.add_subcommand("study", "Let people rank dances whose makers they don't know");
+  CLI::App* study = app.add_subcommand("study", "Compare dances blindly: people rank films");
   study->require_subcommand(1);
   const auto writes = [&](const char* name, const char* what, auto run) {
     CLI::App* command = study->add_subcommand(name, what);
@@ -69,7 +68,7 @@ void AddStudyCommand(CLI::App& app) {
         ->required();
     command->add_option("--question", arguments->question, "What the page asks")
         ->capture_default_str();
-    command->add_option("--seed", arguments->seed, "Of the order that films are shown in")
+    command->add_option("--seed", arguments->seed, "Seed of the order of films")
         ->capture_default_str();
     command->callback([arguments, run] { run(*arguments); });
     return command;

@@ -46,7 +46,7 @@ class ControlRun : public PaperRun {
     } else {
       const Safetensors content = ReadSafetensors(options.from);
       if (!HoldsControllers(content))
-        throw InvalidArgument("--from", options.from.string() + " is no controllers network");
+        throw InvalidArgument("--from", options.from.string() + " is not a controllers network");
       StartFrom(ParseControllers(content, options.from.string()));
       ImportTensors(content, "", model_.get());
     }

@@ -60,7 +60,7 @@ function Welcome() {
   return (
     <div class="welcome">
       <h1>Drop a song here</h1>
-      <p>It is danced to at once, through poses on its beats. Then make it yours: move the poses, bend them, set others.</p>
+      <p>She dances to it immediately, through poses on its beats. Then make it yours: move poses, bend them, add others.</p>
       <div class="row">
         <FileButton label="Choose a song" primary />
         {studio.canHear() && <button onClick={() => void studio.startLive()}>Use the microphone</button>}
@@ -76,7 +76,7 @@ function Progress() {
     const { share, left } = studio.filming.value;
     return (
       <div class="progress filming" role="status">
-        filming … {Math.round(100 * share)} %{left && `, ${left} left`} <button onClick={studio.leaveFilm}>Leave off</button>
+        filming … {Math.round(100 * share)} %{left && `, ${left} left`} <button onClick={studio.leaveFilm}>Cancel</button>
       </div>
     );
   }

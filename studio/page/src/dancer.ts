@@ -35,7 +35,7 @@ export class Dancer {
         {
           onFailure: reject,
           onResponse: ({ response }) => {
-            if (response.case === 'resumed') watch.onWarning('The server was lost; the dance goes on without a seam.');
+            if (response.case === 'resumed') watch.onWarning('The server was lost; the dance continues without a seam.');
             if (response.case !== 'dance') return;
             const part = response.value.response;
             if (part.case === 'frames') {

@@ -11,7 +11,7 @@ function PartnerFields({ partner, nth }: { partner: Partner; nth: number }) {
   const { id, x, z, facing, mirrored, after, inCounts, seed, keys } = partner;
   const set = (what: Partial<Partner>) => studio.changePartner(nth, what);
   const isTaken = (spot: { x: number; z: number }) => studio.project.value.dancers.some((other) => other !== partner && other.x === spot.x && other.z === spot.z);
-  const put = (spot: { x: number; z: number }) => (isTaken(spot) ? studio.notify('Somebody stands there.') : set(spot));
+  const put = (spot: { x: number; z: number }) => (isTaken(spot) ? studio.notify('Another dancer stands there.') : set(spot));
   const isPlain = !mirrored && after === 0 && seed === null && keys === null;
   return (
     <fieldset class="partner">
@@ -21,13 +21,13 @@ function PartnerFields({ partner, nth }: { partner: Partner; nth: number }) {
         <NumberField label="z" name={`${id}, z in metres`} value={z} low={-limits.stageM} high={limits.stageM} step={0.1} rule="z is metres towards the audience" set={(value) => put({ x, z: value })} />
         <NumberField label="faces" name={`${id}, degrees that her dance is turned`} value={facing} low={-360} high={360} step={5} rule="Her dance turns -360 to 360 degrees" set={(value) => set({ facing: value })} />
         <NumberField label="later" name={`${id}, ${inCounts ? 'counts' : 'seconds'} later`} value={after} low={0} high={longest} step={1}
-          rule={`She comes 0 to ${longest} ${inCounts ? 'counts' : 'seconds'} later`} set={(value) => set({ after: value })} />
+          rule={`She may start 0 to ${longest} ${inCounts ? 'counts' : 'seconds'} later`} set={(value) => set({ after: value })} />
       </div>
       <div class="row">
         <label class="check"><input type="checkbox" checked={mirrored} onChange={(event) => set({ mirrored: event.currentTarget.checked })} />Mirrored</label>
-        <button aria-pressed={seed !== null} title="The same keys, danced otherwise" onClick={() => set({ seed: seed === null ? studio.project.value.seed + 1 + nth : null })}>Dances otherwise</button>
+        <button aria-pressed={seed !== null} title="The same keys, danced differently" onClick={() => set({ seed: seed === null ? studio.project.value.seed + 1 + nth : null })}>Dances differently</button>
         <button aria-pressed={keys !== null} title="Keys of her own instead of the keys of all" onClick={() => set({ keys: keys === null ? [...studio.project.value.keys] : null })}>Own keys</button>
-        {keys && <button title="Show her keys above, to set and move them; those of the others stay as they are" onClick={() => studio.workOnDanceOf(nth)}>Work on her keys</button>}
+        {keys && <button title="Show her keys above, to set and move them; the others' keys stay" onClick={() => studio.workOnDanceOf(nth)}>Work on her keys</button>}
         <button aria-label={`Remove ${id}`} class="icon" title="Remove" onClick={() => studio.removePartner(nth)}>×</button>
       </div>
       {isPlain && nth > 0 && <p class="small">The same dance at another place.</p>}
@@ -55,7 +55,7 @@ export function DancersPanel() {
   return (
     <section aria-label="Dancers">
       <h2>Dancers</h2>
-      {partners.length === 0 && <p class="small">One dances. Others dance with her: mirrored, counts later, or otherwise.</p>}
+      {partners.length === 0 && <p class="small">One dancer. Others can dance with her: mirrored, counts later, or differently.</p>}
       {partners.map((partner, nth) => <PartnerFields key={partner.id} partner={partner} nth={nth} />)}
       <Distance />
       <div class="row">

@@ -113,7 +113,7 @@ export async function film({ kind, motion, song, draw, progressed, signal }: Pla
   }
   const count = Math.round(seconds * fps);
   for (let i = 0; i < count && !failure; ++i) {
-    if (signal.aborted) throw new Error('The film was left off.');
+    if (signal.aborted) throw new Error('The film was cancelled.');
     const picture = new VideoFrame(draw(i / fps), { timestamp: Math.round((i * 1e6) / fps), duration: Math.round(1e6 / fps) });
     pictures.encode(picture, { keyFrame: i % keyEvery === 0 });
     picture.close();

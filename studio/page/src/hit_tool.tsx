@@ -8,7 +8,7 @@ export function HitTool({ item }: { item: Key }) {
   const set = (hit: number | null) => studio.hitKey(item.id, hit);
   return (
     <>
-      <label class="check" title="Else she dances through it">
+      <label class="check" title="Otherwise she dances through it">
         <input type="checkbox" checked={item.hit !== null} onChange={(event) => set(event.currentTarget.checked ? limits.usualHit : null)} />
         Come to rest in it
       </label>

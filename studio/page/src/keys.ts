@@ -210,7 +210,7 @@ export function copyPose({ pose }: LibraryPose) {
 export function workOn(part: number, isOn: boolean) {
   const key = sketch.value ? undefined : keyOf(selectedKey.value);
   const chosen = (key?.joints ? partsOf(key.joints) : worked.value).map((old, i) => (i === part ? isOn : old));
-  if (!chosen.some(Boolean)) return notify('One part at least is worked on.');
+  if (!chosen.some(Boolean)) return notify('Pick at least one part.');
   worked.value = chosen;
   if (key?.joints) fixJoints(key, withPart(key.joints, part, isOn));
 }

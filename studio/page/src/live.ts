@@ -160,13 +160,13 @@ export const stopLive = () => work(async () => {
   pieces = [];
   const beats = heardOtherwise ? countedLive(live.value.beats) : null;
   live.value = null;
-  if (motion.count === 0) throw new Error('Nothing was heard that could be danced to.');
+  if (motion.count === 0) throw new Error('Nothing was heard to dance to.');
   if (isLost) await connected();
   await analyseSong(name, wav(all, rate, 16));
   push({ ...project, seconds: samples / rate, keys, beats }, motion, async () => motion);
   notify(isWhole
     ? 'Export the dance to keep it: its project holds no frames, and becomes another dance when it is opened.'
-    : 'The dance ended early; what came of it stays.');
+    : 'The dance ended early; its frames so far stay.');
 });
 
 /// The program may be restarting.
@@ -193,7 +193,7 @@ export function addLiveKey(pose: LibraryPose, wanted: number | null) {
 export function changeLiveKey(id: string, to: number | null) {
   const { keys } = live.value!.project;
   const key = keys.find((some) => some.id === id);
-  if (!key || key.frame < earliest()) return notify('This pose is danced already.');
+  if (!key || key.frame < earliest()) return notify('This pose has already been danced.');
   const others = keys.filter((some) => some !== key);
   if (to === null) {
     send({ request: { case: 'removeKeyframe', value: { id } } });

@@ -9,7 +9,7 @@ import { live, project, notify } from './state';
 function change(old: Marker | null, next: Marker | null) {
   const markers = withMarker(project.value.markers, old, next);
   if (markers) note({ markers });
-  else notify('There is a marker already.');
+  else notify('There is already a marker.');
 }
 
 /// Marks the playhead.

@@ -11,7 +11,7 @@ const refusals: Record<string, string> = {
 
 /// Records until stopped. Calls `lost` if the microphone is unplugged.
 export async function listen(onPiece: (piece: Float32Array) => void, onLost: () => void): Promise<Microphone> {
-  if (!navigator.mediaDevices) throw new Error('Browsers give the microphone to pages of this machine alone: open the studio as http://127.0.0.1.');
+  if (!navigator.mediaDevices) throw new Error('Browsers allow the microphone only for pages of this machine: open the studio as http://127.0.0.1.');
   // Raw sound: processing for speech would remove the music.
   const wanted = { echoCancellation: false, noiseSuppression: false, autoGainControl: false };
   const stream = await navigator.mediaDevices.getUserMedia({ audio: wanted }).catch((error: DOMException) => {

@@ -38,7 +38,7 @@ function keep(all: Kept[]) {
   try {
     localStorage.setItem(place, JSON.stringify(all));
   } catch {
-    showError(new Error('This browser remembers no poses: they are gone with this page.'));
+    showError(new Error('This browser cannot store poses: they are lost when this page closes.'));
   }
 }
 

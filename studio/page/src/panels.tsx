@@ -96,9 +96,9 @@ function MusicPanel() {
   return (
     <section aria-label="Music">
       <h2>Music</h2>
-      <Slider name="energy" title="How much the music's energy is that of the dance" low={0} high={1} value={dynamics} isFixed={isFixed}
+      <Slider name="energy" title="How much the music's energy shapes the dance" low={0} high={1} value={dynamics} isFixed={isFixed}
         set={(next) => studio.follow({ dynamics: next })} />
-      <Slider name="variation" title="How much the dance differs where the music comes back" low={0} high={1} value={variation} isFixed={isFixed}
+      <Slider name="variation" title="How much the dance differs when the music returns" low={0} high={1} value={variation} isFixed={isFixed}
         set={(next) => studio.follow({ variation: next })} />
       {isFixed && <p class="small">Set before a live dance begins.</p>}
     </section>
@@ -116,7 +116,7 @@ function BeatsPanel() {
   const pace = live.value?.hint.pace;
   return (
     <section aria-label="Beats">
-      <h2>Beats <small title={sure === null ? undefined : 'How much more sound begins on them than elsewhere; not how likely they are right'}>
+      <h2>Beats <small title={sure === null ? undefined : 'How much more sound begins on them than elsewhere; not how likely they are to be right'}>
         {isNone ? 'none heard' : `${tempo(beats.value).toFixed(1)} a minute${sure === null ? '' : `, they stand out by ${sure} %`}`}
       </small></h2>
       <div class="row">
@@ -199,9 +199,9 @@ function LivePanel() {
     <section aria-label="Live">
       <h2>Live</h2>
       <meter class="level" min="0" max="1" value={studio.level.value} aria-label="How loud it is" />
-      <p class="small">Press a pose: it is danced on a beat that comes soon. Or drag it to where the timeline is still empty.</p>
+      <p class="small">Press a pose: she takes it on a beat soon. Or drag it to an empty part of the timeline.</p>
       <div class="row"><button class="primary" onClick={() => void studio.stopLive()}>Stop</button></div>
-      <p class="small">What was heard becomes the song, and the dance stays.</p>
+      <p class="small">The recording becomes the song, and the dance stays.</p>
     </section>
   );
 }

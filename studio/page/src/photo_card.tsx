@@ -40,7 +40,7 @@ export function PhotoCard() {
     <section class="photo" aria-label="Photo">
       <Seen photo={photo} />
       {hidden.length > 0 && <p class="small off">Hardly seen, and so made up: {hidden.join(', ')}.</p>}
-      <p class="small hint">What was seen is a guess: pull the dots until the body stands as in the photo.</p>
+      <p class="small hint">This is a guess: pull the dots until the body stands as in the photo.</p>
       <div class="row">
         <button class="primary" disabled={!studio.project.value} onClick={set}>Set as a key</button>
         <button onClick={() => {

@@ -25,7 +25,7 @@ function load(): Promise<Detector> {
       made.setOptions({ modelComplexity: 1, smoothLandmarks: false });
       resolve(made);
     };
-    script.onerror = () => reject(new Error('What sees poses in photos could not be loaded.'));
+    script.onerror = () => reject(new Error('The reader of photos could not be loaded.'));
     document.head.append(script);
   }).catch((error: unknown) => {
     detector = null;
@@ -65,7 +65,7 @@ async function look(canvas: HTMLCanvasElement): Promise<Results | null> {
 export const readPhoto = (name: string, bytes: Uint8Array) => work(async () => {
   if (!welcome.value?.readsPhotos)
     throw new Error(`${name}: photos need @mediapipe/pose, which is not here. \`make studio\` fetches it where there is npm; start the studio anew then.`);
-  if (isLooking) throw new Error('One photo after the other.');
+  if (isLooking) throw new Error('One photo at a time.');
   isLooking = true;
   notify(`Looking for somebody in ${name} …`);
   const url = URL.createObjectURL(new Blob([bytes as BlobPart], { type: photoTypes[name.split('.').at(-1)!.toLowerCase()] }));

@@ -18,18 +18,18 @@ export function PhrasePanel() {
         </>}
         {phrase && <>
           <button disabled={keys === 0} title="Left becomes right" onClick={studio.mirrorPhrase}>Mirror</button>
-          <button disabled={keys === 0} title="Once more right after it; keys that stand there make way" onClick={() => studio.repeatPhrase()}>Repeat</button>
-          <button disabled={keys < 2} title="Once more but for the last key, for which a pose is pressed" onClick={() => studio.repeatPhrase(true)}>Repeat, ending otherwise</button>
+          <button disabled={keys === 0} title="Again, right after it; keys there are removed" onClick={() => studio.repeatPhrase()}>Repeat</button>
+          <button disabled={keys < 2} title="Again, without its last key, for which you press a pose" onClick={() => studio.repeatPhrase(true)}>Repeat with another ending</button>
           <div class="choices" role="group" aria-label="Time">
-            <button disabled={keys === 0} title="Its keys twice as far apart; keys that stand where they come make way" onClick={() => studio.stretchPhrase(2)}>Half time</button>
+            <button disabled={keys === 0} title="Its keys twice as far apart; keys in the way are removed" onClick={() => studio.stretchPhrase(2)}>Half time</button>
             <button disabled={keys === 0} title="Its keys half as far apart" onClick={() => studio.stretchPhrase(0.5)}>Double time</button>
           </div>
-          <button disabled={keys === 0} title="To set its keys elsewhere (Ctrl+C)" onClick={studio.copyKeys}>Copy</button>
+          <button disabled={keys === 0} title="Copy its keys (Ctrl+C)" onClick={studio.copyKeys}>Copy</button>
         </>}
         {studio.canPaste.value && <button disabled={!value} title="The copied keys, from the playhead on (Ctrl+V)" onClick={studio.pasteKeys}>Paste at playhead</button>}
         {phrase && <>
-          <button disabled={keys === 0} title="Take its keys out (Delete)" onClick={studio.removePhrase}>Remove keys</button>
-          <button title="As large on the timeline as fits" onClick={() => show(...phrase)}>Zoom to it</button>
+          <button disabled={keys === 0} title="Remove its keys (Delete)" onClick={studio.removePhrase}>Remove keys</button>
+          <button title="Fill the timeline with it" onClick={() => show(...phrase)}>Zoom to it</button>
           <button title="Choose nothing (Escape)" onClick={() => (studio.selection.value = null)}>Leave</button>
         </>}
       </div>

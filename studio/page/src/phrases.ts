@@ -112,7 +112,7 @@ export function repeatPhrase(withAnotherEnding = false) {
   if (withAnotherEnding) {
     audio.pause();
     audio.currentTime = ending / fps;
-    return notify('The phrase comes again but for its last key: press a pose, and it ends in that.');
+    return notify('The phrase is repeated without its last key: press a pose to end it.');
   }
   notifyOfLeftOut(keys.length - set.length, keys.length);
 }
@@ -134,7 +134,7 @@ export function stretchPhrase(times: number) {
   })).filter(({ frame }) => frame < most);
   if (set.some(({ frame }, i) => i > 0 && frame - set[i - 1].frame < limits.keyDistance)) return showError(new Error('Its keys would stand too close together.'));
   const touched = keys.filter((key, i) => set[i]?.frame !== key.frame);
-  if (touched.length === 0) return notify('The phrase has no key behind its beginning.');
+  if (touched.length === 0) return notify('The phrase has no key after its beginning.');
   const begin = Math.min(from, (set[0]?.frame ?? from) - limits.keyDistance + 1);
   const end = Math.max(to, stretched(to), (set.at(-1)?.frame ?? 0) + limits.keyDistance);
   const stay = project.value.keys.filter((key) => !keys.includes(key) && (key.frame < begin || key.frame >= end));

@@ -130,7 +130,7 @@ export function PoseTools({ stage, pose }: { stage: Stage | null; pose: Pose }) 
         <button disabled={areHipsFixed} onClick={change((old) => studio.skeleton.grounded(old))}>To the floor</button>
         <button aria-label="Turn left" title="Turn left" class="icon" disabled={areHipsFixed} onClick={change((old) => turned(old, Math.PI / 12))}>⟲</button>
         <button aria-label="Turn right" title="Turn right" class="icon" disabled={areHipsFixed} onClick={change((old) => turned(old, -Math.PI / 12))}>⟳</button>
-        {key && <button title="Have this pose among the poses, to set it elsewhere" onClick={() => studio.addPose(key, pose)}>Add to poses</button>}
+        {key && <button title="Add this pose to the poses, to set it elsewhere" onClick={() => studio.addPose(key, pose)}>Add to poses</button>}
         {key && <button title="Set it again at the playhead, or on the next beat (Ctrl+D)" onClick={studio.duplicateKey}>Duplicate</button>}
         {item && !studio.live.value && <button title="Come to rest in it on a last beat, and hold it to the end" onClick={() => studio.endIn(item.id)}>End in it</button>}
         {key && <button onClick={() => studio.removeKey(key)}>Remove</button>}

@@ -205,7 +205,8 @@ TEST_F(MusicBeats, ATempoThatTheMusicDoesNotHaveIsWarnedOf) {
     BeatsAsAsked(onsets, 0, {.hint = {.tempo_bpm = tempo}});
     return testing::internal::GetCapturedStderr();
   };
-  EXPECT_THAT(said(97), testing::StartsWith("warning: --tempo 97 is far from what is heard, 120 "));
+  EXPECT_THAT(said(97),
+              testing::StartsWith("warning: --tempo 97 is far from the tempo heard, 120 "));
   for (const double tempo : {120.0, 123.0, 60.0, 80.0, 180.0}) EXPECT_EQ(said(tempo), "") << tempo;
   // It might be two thirds of the music's, but nothing is found so near to it.
   EXPECT_EQ(said(170), "warning: --tempo 170 is not found; beats are taken at 160 a minute\n");

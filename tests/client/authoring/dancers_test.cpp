@@ -97,7 +97,7 @@ TEST_F(DancersTest, MirroredInCanonAndApart) {
       std::regex_search(text, said, std::regex("least distance between bodies: ([0-9.]+)")));
   EXPECT_NEAR(std::stod(said[1]), least, 0.001);
   EXPECT_THAT(text,
-              HasSubstr(" times as far from their middle as said, so that bodies stay 0.2 m"));
+              HasSubstr(" times as far from their middle as requested, so that bodies stay 0.2 m"));
 
   // Mirroring is about the dancer's place.
   const auto own = [](const Motion& motion, size_t frame) {

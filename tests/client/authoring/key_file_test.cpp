@@ -119,8 +119,8 @@ TEST(KeyFileTest, ErrorsNameTheFieldTheValueAndTheLimit) {
   const auto refused = [](const std::string& text, const std::string& part) {
     ExpectError(ErrorCode::kInvalidArgument, part, [&] { Parse(text); });
   };
-  refused("{", "keys.json: is not JSON: it breaks off at line 1, column 2");
-  const std::string comma = "is not JSON: it has a comma too many at line ";
+  refused("{", "keys.json: is not JSON: ends too early at line 1, column 2");
+  const std::string comma = "is not JSON: has an extra comma at line ";
   refused("{\"keyframes\": [{\"time\": 2, \"pose\": \"kick\",}]}", comma + "1, column 42");
   refused("{\"keyframes\": [{\"time\": 2},\n ]}", comma + "1, column 27");
   refused("[]", "keys.json: has no list \"keyframes\"");
@@ -140,7 +140,7 @@ TEST(KeyFileTest, ErrorsNameTheFieldTheValueAndTheLimit) {
           "keyframes[0].frame: 1.5 is not a whole number");
   refused(File(R"("time": 1)"), "keyframes[0].rotations: is missing");
   refused(File(R"("time": 1, "joints": ["tail"], "rotations": )" + Rotations()),
-          "\"tail\" is no joint of smpl24");
+          "\"tail\" is not a joint of smpl24");
   const std::string same = R"({"id": "a", "time": 1, "rotations": )" + Rotations() + "}";
   refused(R"({"keyframes": [)" + same + "," + same + "]}",
           "keyframes[1].id: \"a\" stands for an earlier key");

@@ -82,7 +82,7 @@ TEST(KeyJointsTest, ErrorsNameTheFieldTheValueAndTheLimit) {
     ExpectError(ErrorCode::kInvalidArgument, part, [&] { Parse(members); });
   };
   refused(R"("time": 1, "pose": "kik")",
-          "keyframes[0].pose: kik: is no pose of the library; did you mean kick?");
+          "keyframes[0].pose: kik: is not a pose of the library; did you mean kick?");
   refused(R"("time": 1, "pose": 3)", "keyframes[0].pose: 3 is not a name");
   refused(R"("time": 1, "pose": "kick", "root_position": [0, 1, 0])",
           "keyframes[0].root_position: stands beside pose");

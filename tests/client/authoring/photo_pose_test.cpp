@@ -200,7 +200,7 @@ TEST_F(PhotoPoseTest, NamesInvalidLandmarks) {
   refused(bad, "landmarks[4].visibility: \"high\" is not a number");
   refused(json::array({}), "landmarks");
   refused({{"people", 1}}, "l.json:landmarks: is missing");
-  refused(json(33, {{"x", 0}, {"y", 0}, {"z", 0}}), "all stand in one place");
+  refused(json(33, {{"x", 0}, {"y", 0}, {"z", 0}}), "are all in one place");
 
   const auto no_pose = [&](const json& file, const std::string& message) {
     const std::string path = Write("s.json", file);
@@ -209,7 +209,7 @@ TEST_F(PhotoPoseTest, NamesInvalidLandmarks) {
   no_pose({{"pose", std::vector<double>(71, 0)}}, "s.json:pose: 71 numbers, must be 72");
   no_pose({{"pose", std::vector<double>(144, 0)}}, "144 numbers, must be 72");
   no_pose({{"pose", std::vector<double>(72, 9)}}, "joint 0: 15.5885 rad exceeds");
-  no_pose({{"pose", std::vector<double>(216, 1)}}, "joint 0: is no rotation matrix");
+  no_pose({{"pose", std::vector<double>(216, 1)}}, "joint 0: is not a rotation matrix");
   no_pose({{"pose", {"a"}}}, "s.json:pose[0]: \"a\" is not a number");
   no_pose({{"betas", 0}}, "s.json:pose: is missing");
   ExpectError(ErrorCode::kInvalidArgument, "/dev/zero: is larger than 64 MiB",

@@ -46,8 +46,8 @@ TEST(WrittenControls, ErrorsNameWhereAControlWasWritten) {
   none.Follow(project);
   EXPECT_EQ(Typed(none.InTermsOf(refused)), "p.json:lively");
   EXPECT_EQ(std::string(AskedOf(none).what()),
-            "p.json:path: the model \"plain\" does not have this control, but these of the "
-            "server do: \"free\"");
+            "p.json:path: the model \"plain\" does not have this control, but these models of the "
+            "server have it: \"free\"");
 }
 
 TEST(WrittenControls, ReasonsOfTheApiGetTheOptions) {

@@ -261,7 +261,7 @@ TEST_F(LiveDanceTest, PoseCanBeRemovedUntilItIsDanced) {
   Dance({{24, {"kick"}}, {40, {}}, {99, {"groove", 1.5}}, {150, {}}, {170, {}}});
   EXPECT_GT(Off(45, "kick"), 5);
   EXPECT_EQ(figures_.back().keys_danced, 0);
-  EXPECT_THAT(notes_, testing::ElementsAre("no pose can be taken back"));
+  EXPECT_THAT(notes_, testing::ElementsAre("no pose can be removed"));
 }
 
 // The groove is later, but the kick was requested last.
@@ -523,7 +523,7 @@ TEST_F(CommandTest, ALiveDanceRefusesImpossibleOptions) {
   EXPECT_THAT(live(At("song.wav") + " --song-start 2").said,
               HasSubstr("--song-start: 2 s is after"));
   EXPECT_THAT(live(At("song.wav") + " --ahead 0.2").said,
-              HasSubstr("--ahead: 0.2 s is not after what is settled already, --look-ahead 0.3 s"));
+              HasSubstr("--ahead: 0.2 s does not exceed --look-ahead, 0.3 s"));
   EXPECT_THAT(live(At("song.wav") + " --deadline 5").said, HasSubstr("--deadline: a live dance"));
   EXPECT_THAT(live(At("song.wav") + " --beats beats.txt").said,
               HasSubstr("--beats: names the beats of a whole song"));
@@ -532,7 +532,7 @@ TEST_F(CommandTest, ALiveDanceRefusesImpossibleOptions) {
   EXPECT_EQ(live(At("song.wav") + " --beats auto --half-time").code, 0);
   EXPECT_THAT(live(At("song.wav") + " --tempo 20").said, HasSubstr("--tempo: "));
   EXPECT_THAT(live(At("song.wav") + " -k none -k a.json").said,
-              HasSubstr("--keyframes: none stands beside a.json"));
+              HasSubstr("--keyframes: none cannot be combined with a.json"));
   EXPECT_EQ(live(At("song.wav") + " -k none").code, 0);
   EXPECT_THAT(live(At("song.wav") + " --input default").said, HasSubstr("song excludes --input"));
   std::ofstream(folder_ / "keys.json") << R"({"keyframes": [{"time": 2, "pose": "kick"}]})";
@@ -541,8 +541,8 @@ TEST_F(CommandTest, ALiveDanceRefusesImpossibleOptions) {
                         "end: its last frame is at 0.97 s"));
   std::ofstream(folder_ / "counted.json") << R"({"keyframes": [{"time": "3c", "pose": "kick"}]})";
   EXPECT_THAT(live("--input null -k " + At("counted.json")).said,
-              HasSubstr("keyframes[0].time: 3c: nobody knows yet where the beats of music that is "
-                        "still to sound are; say seconds, or name the song's file"));
+              HasSubstr("keyframes[0].time: 3c: the beats of live music are not known in advance; "
+                        "use seconds, or name the song's file"));
   const OscReceiver taken;
   EXPECT_THAT(live(At("song.wav") + " --osc " + std::to_string(taken.port())).said,
               HasSubstr("--osc: port "));

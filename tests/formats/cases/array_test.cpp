@@ -89,7 +89,7 @@ TEST_F(CasesTest, ArraysOfEveryKind) {
   npz.SetArray("trans", smpl.Trans());
   EXPECT_EQ(ReadNpz(npz, {.fps = 50}).motion.fps, 50);
   npz.SetArray("poses", {{f, 24, 3, 3}, std::vector<double>(static_cast<size_t>(f) * 216, 0.5)});
-  ExpectError(ErrorCode::kInvalidArgument, "a.npz: poses[0][0]: is no rotation matrix",
+  ExpectError(ErrorCode::kInvalidArgument, "a.npz: poses[0][0]: is not a rotation matrix",
               [&] { ReadNpz(npz); });
 }
 

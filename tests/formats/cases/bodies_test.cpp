@@ -272,7 +272,7 @@ TEST_F(CasesTest, APoseOfADanceIsNoRestPose) {
     glb.document["nodes"][body + RigIndex(joint.bone)]["rotation"] = {q.x(), q.y(), q.z(), q.w()};
   }
   const Read read = ReadBytes("a.glb", glb.Bytes());
-  EXPECT_TRUE(read.Says("its rest pose is no standing body")) << Said(read);
+  EXPECT_TRUE(read.Says("its rest pose is not a standing body")) << Said(read);
   EXPECT_LT(Compare(read.motion, Expressive).limbs, 0.1);
 }
 

@@ -127,7 +127,7 @@ TEST_F(CasesTest, TheLogOfArrays) {
   npz.SetArray("poses", smpl.Poses({24, 4}, [](const Eigen::Vector3d&) {
     return std::vector<double>{1, 1, 0, 0};
   }));
-  ExpectError(ErrorCode::kInvalidArgument, "poses[0][0]: is no quaternion of length 1",
+  ExpectError(ErrorCode::kInvalidArgument, "poses[0][0]: is not a quaternion of length 1",
               [&] { ReadNpz(npz); });
   NpyArray lost = smpl.Poses({72}, vector);
   std::get<std::vector<double>>(lost.values)[72 * 7] = NAN;

@@ -197,9 +197,10 @@ TEST_F(CasesTest, AGltfThatIsText) {
   glb.document["buffers"][0]["uri"] = "the%20dance.bin";
   EXPECT_LT(Compare(ReadBytes("a.gltf", glb.document.dump()).motion, Expressive).turns, kOpen);
   std::filesystem::remove(folder_ / "the dance.bin");
-  ExpectError(ErrorCode::kInvalidArgument,
-              "a.gltf: buffers[0].uri: \"the%20dance.bin\" is no file beside it: export it as .glb",
-              [&] { ReadFile("a.gltf"); });
+  ExpectError(
+      ErrorCode::kInvalidArgument,
+      "a.gltf: buffers[0].uri: \"the%20dance.bin\" is not a file beside it: export it as .glb",
+      [&] { ReadFile("a.gltf"); });
   for (const char* elsewhere : {"../the dance.bin", "/etc/passwd"}) {
     glb.document["buffers"][0]["uri"] = elsewhere;
     ExpectError(ErrorCode::kInvalidArgument, "is no file beside it",

@@ -46,7 +46,7 @@ await inStudio(async ({ page, until, settle, frames, give, download }) => {
   const rootAt = (frame) => page.evaluate((frame) => window.choreo.motion.value.pose(frame).root, frame);
 
   await check('beside the styles stands how well they show', async () => {
-    assert.match(await page.getByRole('region', { name: 'Style' }).innerText(), /They do not show: in 8 % of seconds a classifier recognises the style asked for, by chance in 6 %/);
+    assert.match(await page.getByRole('region', { name: 'Style' }).innerText(), /They do not show: in 8 % of seconds a classifier recognises the requested style, by chance in 6 %/);
   });
 
   await check('a second dancer comes beside the first; no frame of the dance changes', async () => {
@@ -97,7 +97,7 @@ await inStudio(async ({ page, until, settle, frames, give, download }) => {
   await check('a third one dances otherwise, and the others as before', async () => {
     const before = await frames();
     await panel.getByRole('button', { name: 'Add a dancer' }).click();
-    await panel.getByRole('button', { name: 'Dances otherwise' }).nth(2).click();
+    await panel.getByRole('button', { name: 'Dances differently' }).nth(2).click();
     const { danceOf } = await formed();
     assert.deepEqual(danceOf, [0, 0, 1]);
     assert.deepEqual(await frames(), before);

@@ -64,9 +64,9 @@ await inStudio(async ({ page, until, settle, message, give, download }) => {
     await until(() => document.querySelector('.stage canvas').width !== 1280);
     assert.ok((await size()) <= 2);
     await page.getByLabel('Export the dance').selectOption('webm');
-    await page.getByRole('button', { name: 'Leave off' }).click();
+    await page.getByRole('button', { name: 'Cancel' }).click();
     await until(() => window.choreo.filming.value === null);
-    assert.equal((await message()).text, 'The film was left off.');
+    assert.equal((await message()).text, 'The film was cancelled.');
     await page.evaluate(() => (window.choreo.message.value = null));
   });
 

@@ -121,7 +121,7 @@ await inStudio(async ({ page, until, settle, message, give, host }) => {
     await until(() => window.choreo.message.value?.text.includes('gone'));
     await host.restart();
     await until(() => !window.choreo.live.value && window.choreo.busy.value === 0);
-    assert.equal((await message()).text, 'The dance ended early; what came of it stays.');
+    assert.equal((await message()).text, 'The dance ended early; its frames so far stay.');
     assert.ok((await page.evaluate(() => window.choreo.motion.value.count)) > 45);
   });
 }, '--use-fake-ui-for-media-stream', '--use-fake-device-for-media-stream', `--use-file-for-fake-audio-capture=${file}`);

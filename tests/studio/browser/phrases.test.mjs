@@ -129,7 +129,7 @@ await inStudio(async ({ page, until, settle, message, frames, give }) => {
   await check('with another ending it waits for a pose, which becomes that', async () => {
     const before = await chooseFirst(3);
     const length = before[3].frame - before[0].frame;
-    await press('Repeat, ending otherwise');
+    await press('Repeat with another ending');
     assert.match((await message()).text, /press a pose/);
     const pose = page.locator('.library li button').nth(3);
     await pose.click();

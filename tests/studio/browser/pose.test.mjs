@@ -164,7 +164,7 @@ await inStudio(async ({ page, until, settle, rest, message, frames, give, downlo
     await parts.getByRole('button', { name: 'left arm' }).click();
     await settle();
     await parts.getByRole('button', { name: 'right arm' }).click();
-    assert.equal((await message()).text, 'One part at least is worked on.');
+    assert.equal((await message()).text, 'Pick at least one part.');
     await panel.getByLabel('Ask for these parts alone').uncheck();
     await settle();
     const { joints, hasPlace } = await key(1);

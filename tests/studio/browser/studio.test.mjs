@@ -306,7 +306,7 @@ await inStudio(async ({ page, errors, until, settle, message, frames, scale, giv
       ['early.json', JSON.stringify({ keyframes: [{ ...key, time: -1 }] }), /keyframes\[0\]\.time: -1/],
       ['late.json', JSON.stringify({ keyframes: [{ ...key, time: 4000 }] }), /late\.json:keyframes\[0\]\.time: 4000 s is beyond 3600 s/],
       ['far.json', JSON.stringify({ keyframes: [{ ...key, root_position: [0, 1, 1e30] }] }), /far\.json:keyframes\[0\]\.root_position\[2\]: 1e\+30 m is further/],
-      ['twice.json', JSON.stringify({ keyframes: [key, { ...key, time: 2 }] }), /"a" stands for an earlier key already/],
+      ['twice.json', JSON.stringify({ keyframes: [key, { ...key, time: 2 }] }), /"a" is already the id of an earlier key/],
       ['close.json', JSON.stringify({ keyframes: [key, { ...key, id: 'b' }] }), /close\.json:keyframes\[1\]\.time: key "b" stands closer than 2 frames to "a"/],
       ['held.json', JSON.stringify({ keyframes: [{ time: 1, pose: 'star_jump', place: [0, 0], hold: 2 }] }), /held\.json:keyframes\[0\]\.hold: .* m in the air/],
       ['turned.json', JSON.stringify({ keyframes: [{ ...key, rotations: Array(24).fill([0, 99, 0]) }] }), /rotations\[0\]: 99 rad exceeds/],
