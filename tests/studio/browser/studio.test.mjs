@@ -61,7 +61,7 @@ await inStudio(async ({ page, errors, until, settle, message, frames, scale, giv
   await check('a song that is there before its dance breaks nothing', async () => {
     await page.evaluate(() => {
       const heard = { seconds: 3, tempo: 120, beats: [1], counts: [1], beatsInBar: 4, suggested: [], passages: [], peaks: [0, 1, 0] };
-      window.choreo.song.value = { name: 'early.wav', url: '', bytes: new Uint8Array(), heard };
+      window.choreo.song.value = { name: 'early.wav', url: '', bytes: new Uint8Array(), analysis: heard };
     });
     await until(() => document.querySelector('.wave div')?.shadowRoot?.querySelector('canvas'));
     await page.evaluate(() => (document.querySelector('.wave').style.width = '2px')); // as a narrow window has it
