@@ -5,6 +5,7 @@
 
 #include "model/core/grid.h"
 #include "model/core/random.h"
+#include "model/plan/footwork.h"
 
 namespace choreo {
 namespace {
