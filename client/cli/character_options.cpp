@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "client/cli/bone_map.h"
-#include "client/cli/dance_report.h"
 #include "client/cli/options.h"
+#include "client/cli/report_file.h"
 #include "model/core/error.h"
 #include "model/fit/finger_bones.h"
 #include "model/fit/retarget.h"

@@ -185,8 +185,8 @@ authoring::Counts ReadCounts(const EditOptions& options, double end_s) {
   return CountsOf(options, ReadSong(options, end_s));
 }
 
-DanceReport FitReport(DanceReport report, const std::string& name, int64_t frames, double fps,
-                      const Motion& file) {
+ReportFile FitReport(ReportFile report, const std::string& name, int64_t frames, double fps,
+                     const Motion& file) {
   if (report.fps != fps) {
     std::ostringstream message;
     message << report.fps << ", but the model runs at " << fps;
@@ -215,7 +215,7 @@ DanceReport FitReport(DanceReport report, const std::string& name, int64_t frame
   return report;
 }
 
-void WriteReport(const std::filesystem::path& path, DanceReport report, int64_t frames,
+void WriteReport(const std::filesystem::path& path, ReportFile report, int64_t frames,
                  const Motion& file) {
   report.frames = frames;
   report.sketch = SketchOf(file, frames, report.fps);

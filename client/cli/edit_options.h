@@ -11,8 +11,8 @@
 #include "client/authoring/music.h"
 #include "client/authoring/written_controls.h"
 #include "client/cli/connection.h"
-#include "client/cli/dance_report.h"
 #include "client/cli/dance_settings.h"
+#include "client/cli/report_file.h"
 #include "client/edit.h"
 
 namespace choreo::cli {
@@ -64,7 +64,7 @@ struct EditOptions : DanceManner {
   std::string join, join_report;
   std::optional<double> gap_s;
 
-  DanceReport known;       ///< the dance's report, if any (FillFromReport)
+  ReportFile known;        ///< the dance's report, if any (FillFromReport)
   DanceSettings settings;  ///< its request, without the beats that the options replace
 };
 
@@ -86,10 +86,10 @@ authoring::Counts ReadCounts(const EditOptions& options, double end_s);
 /// Keys in frames that the file lacks at its end move to the last frame. Prints a note if the dance
 /// was edited after the report. Throws Error(kInvalidArgument), whose field begins with the
 /// report's `name`, for the report of another dance.
-DanceReport FitReport(DanceReport report, const std::string& name, int64_t frames, double fps,
-                      const Motion& file);
+ReportFile FitReport(ReportFile report, const std::string& name, int64_t frames, double fps,
+                     const Motion& file);
 /// Writes the report of an edited dance, for the next edit.
-void WriteReport(const std::filesystem::path& path, DanceReport report, int64_t frames,
+void WriteReport(const std::filesystem::path& path, ReportFile report, int64_t frames,
                  const Motion& file);
 
 }  // namespace choreo::cli

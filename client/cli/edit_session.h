@@ -154,7 +154,7 @@ class EditSession {
   int64_t longest_ = 0;
   client::FinishedDance dance_;
   int64_t frames_ = 0;  // at the model's rate
-  DanceReport known_;   // with the edits
+  ReportFile known_;    // with the edits
   ReportKeys& keys_ = known_.keys;
   std::set<int64_t> set_;    // frames of keys that this edit has set
   std::set<int64_t> stale_;  // frames that show keys that are removed or not yet set

@@ -28,7 +28,7 @@ class Whole {
     skeleton_ = std::move(skeleton);
     dance_ = std::move(dance);
     if (report.empty()) return;
-    const DanceReport read = ReadReport(report);
+    const ReportFile read = ReadReport(report);
     known_.fps = read.fps;
     known_ = FitReport(read, report, Frames(), read.fps, dance_.motion);
   }
@@ -175,7 +175,7 @@ class Whole {
   std::string path_;
   Skeleton skeleton_;
   client::FinishedDance dance_;
-  DanceReport known_;
+  ReportFile known_;
 };
 
 }  // namespace

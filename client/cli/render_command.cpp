@@ -168,7 +168,7 @@ void DrawFilm(const RenderOptions& options, const Stage& stage, const std::vecto
   bar->Finish();
 }
 
-void Run(RenderOptions options, const DanceReport& report) {
+void Run(RenderOptions options, const ReportFile& report) {
   if (options.out.empty() && options.video.empty())
     throw InvalidArgument("--out", "is missing, and so is --video: nothing to draw");
   if (options.video.empty() && !options.song.empty())
@@ -248,8 +248,7 @@ void AddRenderCommand(CLI::App& program) {
       ->needs(video)
       ->capture_default_str();
   command->callback([options, command] {
-    const DanceReport report =
-        options->report.empty() ? DanceReport() : ReadReport(options->report);
+    const ReportFile report = options->report.empty() ? ReportFile() : ReadReport(options->report);
     if (!options->video.empty())
       FillSong(command->count("--song-start") > 0, report.settings, options.get());
     CheckSongStart(*command, options->song);

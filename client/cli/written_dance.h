@@ -6,13 +6,13 @@
 
 #include "client/authoring/dance_keys.h"
 #include "client/choreo_client.h"
-#include "client/cli/dance_report.h"
+#include "client/cli/report_file.h"
 #include "model/core/grid.h"
 
 namespace choreo::cli {
 
 /// A written dance and facts about it.
-struct WrittenDance : DanceReport {
+struct WrittenDance : ReportFile {
   client::Header header = {};
   client::Report figures = {};
   bool is_complete = true;  ///< false: the server was lost, so its figures are missing

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "model/dance/controls/path_curve.h"
 #include "model/evaluation/evaluation.h"
 #include "model/metrics/control_figures.h"
+#include "model/motion/path_curve.h"
 
 namespace choreo {
 

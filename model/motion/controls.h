@@ -52,6 +52,8 @@ inline constexpr ControlRow kControls[] = {
 
 /// Row numbers of the controls.
 inline constexpr size_t kRootPath = 0, kVelocityFactors = 1;
+static_assert(kControls[kRootPath].name == "root_path" &&
+              kControls[kVelocityFactors].name == "velocity_factors");
 inline constexpr int kPathHeight = 1;  ///< the height's channel in a root path
 
 /// The row with this name, which must exist.

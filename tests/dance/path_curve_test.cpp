@@ -1,4 +1,4 @@
-#include "model/dance/controls/path_curve.h"
+#include "model/dance/controls/path_validation.h"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "model/dance/controls/held_track.h"
-#include "model/dance/controls/path_curve.h"
+#include "model/dance/controls/path_validation.h"
 #include "model/dance/spec_poses.h"
 #include "model/dance/warning.h"
 

@@ -1,4 +1,4 @@
-#include "client/cli/dance_report.h"
+#include "client/cli/report_file.h"
 
 #include <algorithm>
 #include <cmath>
@@ -167,7 +167,7 @@ std::string DescribeKnown(const ReportKeys& keys, const std::string& id,
 
 }  // namespace
 
-void DanceReport::WriteTo(ordered_json* json) const {
+void ReportFile::WriteTo(ordered_json* json) const {
   if (frames) (*json)["frames"] = *frames;
   (*json)["fps"] = fps;
   (*json)[kSketch] = sketch;
@@ -182,7 +182,7 @@ void DanceReport::WriteTo(ordered_json* json) const {
     warned.push_back({{"frame", warning.frame}, {"message", warning.message}});
 }
 
-DanceReport ReadReport(const std::filesystem::path& path) {
+ReportFile ReadReport(const std::filesystem::path& path) {
   std::ifstream file(path);
   const std::string text{std::istreambuf_iterator<char>(file), {}};
   const std::string name = path.string();
@@ -195,7 +195,7 @@ DanceReport ReadReport(const std::filesystem::path& path) {
   const auto at = [&](const char* list, size_t i) {
     return name + ":" + list + "[" + std::to_string(i) + "]";
   };
-  DanceReport report;
+  ReportFile report;
   report.fps = value["fps"];
   const MemberReader read{name + ":"};
   read(value, "frames", report.frames);
@@ -220,7 +220,7 @@ DanceReport ReadReport(const std::filesystem::path& path) {
   return report;
 }
 
-void CheckSketch(const std::filesystem::path& path, const DanceReport& report, const Motion& file) {
+void CheckSketch(const std::filesystem::path& path, const ReportFile& report, const Motion& file) {
   const MotionSketch& known = report.sketch;
   if (known.empty() || !report.frames) return;
   const size_t unlike = CountUnlike(known, SketchOf(file, *report.frames, report.fps));
@@ -292,7 +292,7 @@ std::optional<int64_t> HeldEnd(const ReportKeys& keys) {
   return keys.rbegin()->first;
 }
 
-std::vector<HandKey> HandKeys(const DanceReport& report) {
+std::vector<HandKey> HandKeys(const ReportFile& report) {
   std::vector<HandKey> hands;
   for (const auto& [frame, key] : report.keys)
     if (key.hands) hands.push_back({static_cast<double>(frame) / report.fps, *key.hands});

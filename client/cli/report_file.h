@@ -37,7 +37,7 @@ struct ReportKey : client::KeyReached {
 using ReportKeys = std::map<int64_t, ReportKey>;
 
 /// The parts of a dance's report that later commands read.
-struct DanceReport {
+struct ReportFile {
   std::optional<int64_t> frames = {};  ///< at the model's rate; old reports lack it
   double fps = kModelFps;              ///< of the model
   MotionSketch sketch = {};            ///< with which edits recognise the dance; may be empty
@@ -50,12 +50,12 @@ struct DanceReport {
 
 /// Reads a report. Throws Error(kInvalidArgument), whose field begins with the path, for an invalid
 /// one. Reports of earlier versions have fewer members.
-DanceReport ReadReport(const std::filesystem::path& path);
+ReportFile ReadReport(const std::filesystem::path& path);
 
 /// Prints a note of where a dance differs from the sketch in its report. Throws
 /// Error(kInvalidArgument), whose field is the path, for the report of another dance: one of which
 /// most of the sketch differs.
-void CheckSketch(const std::filesystem::path& path, const DanceReport& report, const Motion& file);
+void CheckSketch(const std::filesystem::path& path, const ReportFile& report, const Motion& file);
 
 /// Moves keys to later frames, and to later frames `in_file`; without that, they no longer say
 /// where they are in the file.
@@ -72,6 +72,6 @@ std::vector<int64_t> FindKey(const ReportKeys& keys, const std::string& id, doub
 std::optional<int64_t> HeldEnd(const ReportKeys& keys);
 
 /// The hands' poses in a dance, in order of time.
-std::vector<HandKey> HandKeys(const DanceReport& report);
+std::vector<HandKey> HandKeys(const ReportFile& report);
 
 }  // namespace choreo::cli
