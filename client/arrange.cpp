@@ -28,7 +28,7 @@ FinishedDance PartOf(const FinishedDance& dance, int64_t first, int64_t end) {
   if (first < 0 || end <= first || end > Frames(dance)) {
     throw InvalidArgument("dance", "has " + std::to_string(Frames(dance)) + " frames; [" +
                                        std::to_string(first) + ", " + std::to_string(end) +
-                                       ") is no part of it");
+                                       ") is not a part of it");
   }
   FinishedDance part;
   part.motion.fps = dance.motion.fps;

@@ -85,7 +85,7 @@ void PageSession::ReceiveLive(uint32_t call, const v1::StreamDanceRequest& reque
     case v1::StreamDanceRequest::kEndOfAudio:
       return dance.EndAudio();
     default:
-      throw InvalidArgument("live", "its project says the rest");
+      throw InvalidArgument("live", "has this setting in its project");
   }
 }
 

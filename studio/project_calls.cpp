@@ -31,7 +31,7 @@ std::string FromBase64(const std::string& text, const std::string& field) {
   const int size = EVP_DecodeBlock(reinterpret_cast<unsigned char*>(out.data()),
                                    reinterpret_cast<const unsigned char*>(text.data()),
                                    static_cast<int>(text.size()));
-  if (size < 0) throw InvalidArgument(field, "is no base64");
+  if (size < 0) throw InvalidArgument(field, "is not base64");
   const size_t padding = text.size() - std::min(text.size(), text.find_last_not_of('=') + 1);
   out.resize(static_cast<size_t>(size) - std::min<size_t>(padding, static_cast<size_t>(size)));
   return out;
@@ -45,7 +45,7 @@ std::optional<Song> ExtractSong(json* file, const std::string& name, double most
     throw InvalidArgument(field, "is missing beside song: the file's bytes in base64");
   }
   const json data = std::exchange((*file)["song_data"], nullptr);
-  if (!data.is_string()) throw InvalidArgument(field, "is no text");
+  if (!data.is_string()) throw InvalidArgument(field, "is not a text");
   if (name.empty())
     throw InvalidArgument(std::string(kUnnamed) + ":song", "is missing beside song_data");
   const ScratchFolder folder;

@@ -66,7 +66,7 @@ BeatLine ParseBeat(const std::string& line, const std::string& field) {
 
 BeatTrack ReadBeats(const std::string& path, double start) {
   if (!std::filesystem::is_regular_file(path))
-    throw Error(ErrorCode::kNotFound, "beats", path + " is no file");
+    throw Error(ErrorCode::kNotFound, "beats", path + " is not a file");
   std::ifstream file(path);
   BeatTrack track;
   double last = -1;

@@ -27,7 +27,7 @@ double NumberIn(const json& value, const std::string& field, double low, double 
 
 std::string TextOf(const json& value, const std::string& field) {
   if (value.is_string() && !value.get<std::string>().empty()) return value.get<std::string>();
-  throw InvalidArgument(field, Shown(value) + " is no text");
+  throw InvalidArgument(field, Shown(value) + " is not a text");
 }
 
 /// Reads a dancer's id, which becomes part of the names of files and nodes.

@@ -46,7 +46,7 @@ void CheckAngles(const Eigen::Matrix3Xd& rotations, const std::string& field) {
 Eigen::Matrix3Xd Rotations(const json& value, const std::string& field, int joints) {
   if (!value.is_array() || static_cast<int>(value.size()) != joints) {
     const std::string has =
-        value.is_array() ? "has " + std::to_string(value.size()) + " entries" : "is no list";
+        value.is_array() ? "has " + std::to_string(value.size()) + " entries" : "is not a list";
     throw InvalidArgument(field,
                           has + ", not one for each of the " + std::to_string(joints) + " joints");
   }
@@ -83,7 +83,7 @@ KeyPose ReadSmplKey(const json& value, const std::string& field, const std::stri
   NpzArchive file;
   const auto add = [&](const std::string& name) {
     if (!value[name].is_array()) {
-      throw InvalidArgument(field + "." + name, Shown(value[name]) + " is no list");
+      throw InvalidArgument(field + "." + name, Shown(value[name]) + " is not a list");
     }
     std::vector<double> numbers = Flatten(value[name], field + "." + name);
     // Checks the numbers as given: converting them to our axes would hide an absurd angle.

@@ -21,7 +21,7 @@ constexpr int kFormat = 1;
 std::string Text(const json& file, const std::string& name, const char* member) {
   if (!file.contains(member)) return {};
   if (!file[member].is_string())
-    throw InvalidArgument(name + ":" + member, Shown(file[member]) + " is no text");
+    throw InvalidArgument(name + ":" + member, Shown(file[member]) + " is not a text");
   return file[member].get<std::string>();
 }
 
@@ -42,7 +42,7 @@ bool IsCount(const json& value) {
 /// Reads beats, [[0.52, 1], [1.02, 2], ...]: seconds and counts. Counts may continue over several
 /// bars.
 void ReadBeats(const json& list, const std::string& field, Project* project) {
-  if (!list.is_array()) throw InvalidArgument(field, Shown(list) + " is no list");
+  if (!list.is_array()) throw InvalidArgument(field, Shown(list) + " is not a list");
   std::vector<double>& out = project->beats;
   for (const json& beat : list) {
     const std::string at = field + "[" + std::to_string(out.size()) + "]";
@@ -59,7 +59,7 @@ void ReadBeats(const json& list, const std::string& field, Project* project) {
 }
 
 const json& Object(const json& value, const std::string& field) {
-  if (!value.is_object()) throw InvalidArgument(field, Shown(value) + " is no object");
+  if (!value.is_object()) throw InvalidArgument(field, Shown(value) + " is not an object");
   return value;
 }
 
@@ -109,7 +109,7 @@ void ReadControls(const json& file, const std::string& name, std::span<const Con
 
 /// Reads markers, which are only for people.
 std::vector<Marker> MarkersIn(const json& list, const std::string& field) {
-  if (!list.is_array()) throw InvalidArgument(field, Shown(list) + " is no list");
+  if (!list.is_array()) throw InvalidArgument(field, Shown(list) + " is not a list");
   std::vector<Marker> markers;
   for (size_t i = 0; i < list.size(); ++i) {
     const std::string at = field + "[" + std::to_string(i) + "]";

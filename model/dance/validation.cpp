@@ -30,7 +30,7 @@ void ValidateMask(const Skeleton& skeleton, const PoseMask& mask, const std::str
                                                  std::to_string(skeleton.joints()));
   }
   if (!mask.root_position && std::ranges::count(mask.joints, true) == 0) {
-    throw InvalidArgument(field, "asks for nothing");
+    throw InvalidArgument(field, "requests nothing");
   }
 }
 

@@ -284,7 +284,7 @@ void AddFree(const Evaluation& evaluation, const ModelInfo& model, const FreeDan
 Table LivelinessTable(const Evaluation& evaluation, const Method& method, const KeyedDances& dances,
                       const FreeDances& free) {
   const double fps = method.sampler->model().fps;
-  Table table = evaluation.NewTable("liveliness", "Does it live", {"figure"}, &method);
+  Table table = evaluation.NewTable("liveliness", "Liveliness", {"figure"}, &method);
   if (!dances.real.empty()) {
     AddMovement(dances, &table);
     AddDifferences(dances, &table);

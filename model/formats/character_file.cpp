@@ -14,7 +14,7 @@ using nlohmann::ordered_json;
 void RequireOneFile(const ordered_json& document) {
   const auto buffers = document.find("buffers");
   if (buffers == document.end() || !buffers->is_array() || buffers->empty()) return;
-  if (!buffers->front().is_object()) throw InvalidArgument("buffers[0]", "is no object");
+  if (!buffers->front().is_object()) throw InvalidArgument("buffers[0]", "is not an object");
   if (buffers->front().contains("uri")) {
     throw InvalidArgument("buffers[0].uri",
                           "its data lie elsewhere; export the character as one file, glTF binary");

@@ -30,7 +30,7 @@ GltfBuilder::GltfBuilder(Json document, std::string_view binary)
 GltfBuilder::Json& GltfBuilder::List(const char* name) {
   Json& list = document_[name];
   if (list.is_null()) list = Json::array();
-  if (!list.is_array()) throw InvalidArgument(name, "is no list");
+  if (!list.is_array()) throw InvalidArgument(name, "is not a list");
   return list;
 }
 

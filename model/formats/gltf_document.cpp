@@ -52,10 +52,11 @@ class BareCopy {
   void List(const char* list, std::initializer_list<const char*> members) {
     const auto all = document_.find(list);
     if (all == document_.end()) return;
-    if (!all->is_array()) throw InvalidArgument(list, "is no list");
+    if (!all->is_array()) throw InvalidArgument(list, "is not a list");
     ordered_json& copies = bare_[list] = ordered_json::array();
     for (const ordered_json& one : *all) {
-      if (!one.is_object()) throw InvalidArgument(GltfItem(list, copies.size()), "is no object");
+      if (!one.is_object())
+        throw InvalidArgument(GltfItem(list, copies.size()), "is not an object");
       ordered_json& copied = copies.emplace_back(ordered_json::object());
       for (const char* member : members)
         if (one.contains(member)) copied[member] = one[member];
@@ -122,7 +123,7 @@ ordered_json ParseGltfJson(std::string_view glb) {
   CheckJsonDepth(text, "");
   ordered_json document = ordered_json::parse(text, nullptr, false);
   if (!document.is_object())
-    throw InvalidArgument("", "is not a binary glTF: its JSON is no object");
+    throw InvalidArgument("", "is not a binary glTF: its JSON is not an object");
   return document;
 }
 

@@ -137,8 +137,8 @@ Motion ReadJointPlaces(const NpyArray& array, double fps, const MotionReading& r
   std::vector<Eigen::Matrix3Xd> frames = PlacesOfFrames(array);
   if (frames.empty() || !AreJointPlaces(array)) {
     throw InvalidArgument("joints",
-                          "are no places [frames, 22 or 24, 3] of SMPL's joints, whose "
-                          "limbs keep their lengths, in several frames");
+                          "are not places [frames, 22 or 24, 3] of SMPL's joints, whose limbs keep "
+                          "their lengths, in several frames");
   }
   const Skeleton& body = PlacedBody();
   if (IsMirrored(frames)) {

@@ -101,7 +101,7 @@ double NpzNumber(const NpzArchive& npz, const std::string& key) {
     double number = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
     if (error != std::errc() || end != text.data() + text.size())
-      throw InvalidArgument(key, '"' + Printable(text) + "\" is no number");
+      throw InvalidArgument(key, '"' + Printable(text) + "\" is not a number");
     return number;
   }
   const NpyArray array = npz.Array(key);

@@ -104,7 +104,7 @@ Eigen::MatrixXd FromSixD(const Rows& rows, const std::string& key) {
   const bool is_mixed = mixed < in_turn;
   if (6 * std::min(mixed, in_turn) > kNoSixD * static_cast<double>(rows.values.size())) {
     throw InvalidArgument(key,
-                          "are no rotations in 6D, whose vectors are of length 1 and at right "
+                          "are not rotations in 6D, whose vectors are of length 1 and at right "
                           "angles: were they normalised? Undo that");
   }
   for (Eigen::Index frame = 0; frame < rows.values.cols(); ++frame) {

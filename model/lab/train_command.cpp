@@ -46,7 +46,7 @@ void RefuseUnusedOptions(const CLI::App& command, const PaperOptions& options) {
                                       " of the preset " + options.preset);
   });
   if (options.blend != 1 && options.preset != kDefaultPreset)
-    throw InvalidArgument("--blend", "is no option of the preset " + options.preset);
+    throw InvalidArgument("--blend", "is not an option of the preset " + options.preset);
 }
 
 void Train(PaperOptions options,

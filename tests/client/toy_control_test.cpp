@@ -8,8 +8,8 @@
 #include <fstream>
 
 #include "client/authoring/project_file.h"
-#include "client/cli/report_controls.h"
 #include "client/cli/authoring_options.h"
+#include "client/cli/report_controls.h"
 #include "model/dance/controls/control_track.h"
 #include "model/dance/dance_score.h"
 #include "model/flow/window_features.h"
@@ -18,8 +18,8 @@
 #include "tests/support/expect_error.h"
 #include "tests/support/toy_control.h"
 
-// What people write of a control reaches the network and the report, though none of what it passes
-// names it: a row, a request and a message are all that there is of it.
+// A control that people write reaches the network and the report through code that does not name
+// it. Only its row, its request and its message are its own.
 namespace choreo::toy_way_test {
 
 using Track = ControlTrackOf<toy::ControlRequest, toy::EachControl<TrackOf>>;

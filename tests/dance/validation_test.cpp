@@ -60,7 +60,7 @@ TEST(Validation, MasksFitTheSkeletonAndAreNotEmpty) {
   EXPECT_EQ(refusal({}), "accepted");
   EXPECT_EQ(refusal({false, {}}), "accepted");
   EXPECT_EQ(refusal({true, std::vector<bool>(24, false)}), "accepted");
-  EXPECT_EQ(refusal({false, std::vector<bool>(24, false)}), "target.mask: asks for nothing");
+  EXPECT_EQ(refusal({false, std::vector<bool>(24, false)}), "target.mask: requests nothing");
   EXPECT_EQ(refusal({true, std::vector<bool>(23, true)}),
             "target.mask.joints: 23 joints, the model has 24");
 }

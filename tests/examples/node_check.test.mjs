@@ -40,7 +40,7 @@ test('a request that the API does not know is refused by its path', () =>
       [keyframe({ pose: { root_position: [0, 1, 0] } }), 'keyframe.pose.root_position', '[ 0, 1, 0 ] is no Vector3, {x, y, z}'],
       [keyframe({ pose: Promise.resolve({}) }), 'keyframe.pose', /is no Pose/],
       [keyframe({ pose: { rotations: [0, NaN] } }), 'keyframe.pose.rotations[1]', 'NaN is no finite number'],
-      [keyframe({ pose: { rotations: [[0, 0, 0]] } }), 'keyframe.pose.rotations[0]', '[ 0, 0, 0 ] is no number; rotations is one flat list: give lists.flat()'],
+      [keyframe({ pose: { rotations: [[0, 0, 0]] } }), 'keyframe.pose.rotations[0]', '[ 0, 0, 0 ] is not a number; rotations is one flat list: give lists.flat()'],
       [keyframe({ pose: { rotations: new DataView(new ArrayBuffer(8)) } }), 'keyframe.pose.rotations', /is no array$/],
       [keyframe({ pose: { rotations: new Float32Array([0, NaN]) } }), 'keyframe.pose.rotations[1]', 'NaN is no finite number'],
       [keyframe({ pose: { rotations: 'none' } }), 'keyframe.pose.rotations', "'none' is no array"],
@@ -79,7 +79,7 @@ test('a request that the API does not know is refused by its path', () =>
     await assert.rejects(collect(client.generateTransition()), { message: /^request: undefined is no GenerateTransitionRequest/ });
   }));
 
-test('one request is no list', async () => {
+test('one request is not a list', async () => {
   const client = new ChoreoClient(process.env.CHOREO_SERVER);
   await assert.rejects(client.streamDance({ config: {} }).next(), { message: 'requests: is one object: put it in a list, [{ config }, ...]' });
   client.close();
@@ -114,8 +114,8 @@ test('options of calls that cannot be used are named before the call', () =>
       [{ deadlin: new Date() }, 'deadlin: no option of this call; did you mean deadline?'],
       [{ timeout: 3 }, /^timeout: no option of this call; there are signal, deadline/],
       [{ signal: 5 }, 'signal: 5 is no AbortSignal'],
-      ['x', /^options: 'x' is no object {signal, deadline/],
-      [null, /^options: null is no object {signal, deadline/],
+      ['x', /^options: 'x' is not an object {signal, deadline/],
+      [null, /^options: null is not an object {signal, deadline/],
     ]) {
       for (const call of calls) await assert.rejects(call(options), { name: 'ChoreoError', code: 'INVALID_ARGUMENT', message });
     }

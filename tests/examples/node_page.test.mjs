@@ -211,9 +211,9 @@ test('the back end hears of its wrong orders, and by default so does its console
   const wrong = {
     musik: [{ ...silent, musik: [] }, 'musik: no field of an order; did you mean music?'],
     none: [undefined, 'order: undefined is no {seconds, music, config, keys, speed}'],
-    endless: [{}, 'seconds: undefined is no number above 0'],
-    past: [{ seconds: -3 }, 'seconds: -3 is no number above 0'],
-    still: [{ ...silent, speed: 0 }, 'speed: 0 is no number above 0'],
+    endless: [{}, 'seconds: undefined is not a number above 0'],
+    past: [{ seconds: -3 }, 'seconds: -3 is not a number above 0'],
+    still: [{ ...silent, speed: 0 }, 'speed: 0 is not a number above 0'],
     path: [{ ...silent, music: 'song.mp3' }, "music: 'song.mp3' is text; give the file's bytes, as readFile() does"],
     seed: [{ ...silent, config: { seed: 'abc' } }, "config.seed: 'abc' is not a whole number from 0 to 18446744073709551615"],
   };

@@ -122,7 +122,7 @@ test('a key that cannot be danced is refused, and the dance goes on', () =>
       ['', 'keyframe.id: 7 is no string'],
       ['text', "keyframe.time: 'soon' is no finite number"],
       ['near', 'keyframe.time: frame 151 is closer than 2 frames to key "wave" at 150'],
-      ['none', 'keyframe.mask: asks for nothing'],
+      ['none', 'keyframe.mask: requests nothing'],
       ['turn', 'keyframe.pose.rotations[45]: 7 rad exceeds 2π'],
     ]);
     assert.deepEqual(heard.slice(-2), [['key', { id: 'wave', time: 5 }], ['over', { frames: 180 }]]);

@@ -57,9 +57,9 @@ class CheckTest(unittest.TestCase):
             (keyframe(pose={"root_position": [0, 1, 0]}), "keyframe.pose.root_position", r"\[0, 1, 0\] is no Vector3, {x, y, z}$"),
             (keyframe(pose=choreography.Vector3()), "keyframe.pose", "a choreo.v1.Vector3 is no Pose, "),
             (keyframe(pose={"rotations": [0, float("nan")]}), "keyframe.pose.rotations[1]", "nan is no finite number$"),
-            (keyframe(pose={"rotations": "none"}), "keyframe.pose.rotations", "'none' is no list$"),
-            (keyframe(pose={"rotations": 5}), "keyframe.pose.rotations", "5 is no list$"),
-            (keyframe(pose={"rotations": [[0, 0, 0]]}), "keyframe.pose.rotations[0]", r"\[0, 0, 0\] is no number; rotations is one flat list: give "),
+            (keyframe(pose={"rotations": "none"}), "keyframe.pose.rotations", "'none' is not a list$"),
+            (keyframe(pose={"rotations": 5}), "keyframe.pose.rotations", "5 is not a list$"),
+            (keyframe(pose={"rotations": [[0, 0, 0]]}), "keyframe.pose.rotations[0]", r"\[0, 0, 0\] is not a number; rotations is one flat list: give "),
             (keyframe(mask={"joints": ["head"]}), "keyframe.mask.joints[0]", "'head' is not a whole number from -2147483648 to 2147483647$"),
             (keyframe(id=5), "keyframe.id", "5 is no str$"),
             (keyframe(frame=3), "keyframe.frame", "given beside time; there is one of frame, time, interval_after_previous$"),
@@ -215,7 +215,7 @@ print(api_implementation.Type())
     def test_a_timeout_and_addresses_that_cannot_be_are_refused(self):
         for timeout in ("soon", float("nan")):
             for call in (self.client.info, functools.partial(self.client.stream_dance, [CONFIG], None)):
-                self.assert_refused("timeout: .* is no number of seconds$", call, timeout)
+                self.assert_refused("timeout: .* is not a number of seconds$", call, timeout)
         for timeout in (1e30, float("inf")):
             self.assertTrue(self.client.info(timeout).models)
         self.assert_refused("addresses: None is neither HOST:PORT nor", Client, None)

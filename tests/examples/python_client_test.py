@@ -233,7 +233,7 @@ class ClientTest(unittest.TestCase):
                 (far, {"ca_certificate": own.read_text()}, 'ca_certificate: "the text" needs TLS, which is off$'),
                 (far, {"tls": True, "ca_certificate": own_key.read_text()}, "ca_certificate: the text holds no certificate in PEM"),
                 (far, {"tls": True, "client_certificate": own.read_text(), "client_key": authority.key.read_text()}, "client_key: the text is not the key of the text"),
-                (far, {"retry_s": "long"}, "retry_s: a str is no number$"),
+                (far, {"retry_s": "long"}, "retry_s: a str is not a number$"),
                 (far, {"tls": "yes"}, "tls: a str is no bool$"),
                 (far, {"retry_s": -1}, "retry_s: -1 is not a finite number >= 0$"),
             ):

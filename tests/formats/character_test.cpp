@@ -284,9 +284,9 @@ TEST_F(CharacterTest, RefusesUnusableCharacters) {
     glb.document["nodes"][5]["scale"] = {1, 0, 1};
   });
   refuse("m from the origin", [](Glb& glb) { glb.document["nodes"][0]["translation"][1] = 1e30; });
-  refuse("nodes[3]: is no object", [](Glb& glb) { glb.document["nodes"][3] = 7; });
-  refuse("buffers[0]: is no object", [](Glb& glb) { glb.document["buffers"][0] = 7; });
-  refuse("nodes: is no list", [](Glb& glb) { glb.document["nodes"] = "none"; });
+  refuse("nodes[3]: is not an object", [](Glb& glb) { glb.document["nodes"][3] = 7; });
+  refuse("buffers[0]: is not an object", [](Glb& glb) { glb.document["buffers"][0] = 7; });
+  refuse("nodes: is not a list", [](Glb& glb) { glb.document["nodes"] = "none"; });
   refuse("none of them is the pelvis", [](Glb& glb) {
     glb.document["nodes"] = json::array();
     glb.document.erase("skins");

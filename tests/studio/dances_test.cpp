@@ -311,7 +311,7 @@ TEST_F(StudioTest, RefusesInvalidMusic) {
   page.Say(3, dance);
   Request controls;
   controls.mutable_live()->mutable_controls();
-  EXPECT_EQ(failure(controls), "live: its project says the rest");
+  EXPECT_EQ(failure(controls), "live: has this setting in its project");
   // A dance to the song takes no other music.
   page.Say(3, DanceRequest(3000, 1));
   EXPECT_EQ(failure(piece), "live: is for dances to live music");

@@ -127,8 +127,8 @@ class ProjectCalls(unittest.TestCase):
             ({"path": {"points": [{"time": 0, "x": 0, "z": 0}, {"time": 1, "x": 2e4, "z": 0}]}}, "project:path:points[1].x"),
             ({"song": "a.wav"}, "project:song_data: is missing beside song"),
             ({"song_data": "AAAA"}, "project:song: is missing beside song_data"),
-            ({"song": "a.wav", "song_data": "?!"}, "project:song_data: is no base64"),
-            ({"song": "a.wav", "song_data": 7}, "project:song_data: is no text"),
+            ({"song": "a.wav", "song_data": "?!"}, "project:song_data: is not base64"),
+            ({"song": "a.wav", "song_data": 7}, "project:song_data: is not a text"),
             ({"song": "a.wav", "song_data": "AAAA"}, "a.wav: "),
             ({"song": "../../etc/passwd", "song_data": ""}, "passwd"),
         ):

@@ -45,7 +45,7 @@ export class Character {
   #fingers; // turns, which stay
 
   constructor(rig, skeleton, options = {}) {
-    if (!Array.isArray(rig)) throw new TypeError(`bones: ${rig} is no list of bones, as bonesOf(scene).bones or gltfBones(json)`);
+    if (!Array.isArray(rig)) throw new TypeError(`bones: ${rig} is not a list of bones, as bonesOf(scene).bones or gltfBones(json)`);
     requireObject('skeleton', skeleton, "a dance's header.skeleton");
     requireOptions(options, ['map', 'inPlace', 'hands']);
     const { map, inPlace = false, hands = 'relaxed' } = options;

@@ -2,7 +2,7 @@
 
 /** Throws for options of other names. */
 export function requireOptions(given, names) {
-  if (typeof given !== 'object' || given === null) throw new TypeError(`options: ${given} is no object {${names.join(', ')}}`);
+  if (typeof given !== 'object' || given === null) throw new TypeError(`options: ${given} is not an object {${names.join(', ')}}`);
   for (const name of Object.keys(given)) if (!names.includes(name)) throw new TypeError(`options.${name}: is none of ${names.join(', ')}`);
 }
 

@@ -17,5 +17,5 @@ export function requireOrder(order) {
 }
 
 function requirePositive(name, value) {
-  if (!(value > 0 && Number.isFinite(value))) throw invalid(name, `${quoted(value)} is no number above 0`);
+  if (!(value > 0 && Number.isFinite(value))) throw invalid(name, `${quoted(value)} is not a number above 0`);
 }

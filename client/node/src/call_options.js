@@ -33,7 +33,7 @@ const checks = {
 
 /** Returns the options in `given` that are set. Throws ChoreoError, naming the option, for options not in `names` and for unusable ones. */
 export function checkCall(given = {}, names = ['signal', 'deadline']) {
-  if (typeof given !== 'object' || given === null) throw invalid('options', `${quoted(given)} is no object {${names.join(', ')}}`);
+  if (typeof given !== 'object' || given === null) throw invalid('options', `${quoted(given)} is not an object {${names.join(', ')}}`);
   const options = {};
   for (const [name, value] of Object.entries(given)) {
     if (!names.includes(name)) throw invalid(name, `no option of this call; ${hint(name, names)}`);

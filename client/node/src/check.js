@@ -62,7 +62,7 @@ function message(type, value, path, name, encoding) {
 function list(field, value, path, encoding) {
   const isOfNumbers = !field.resolvedType && ArrayBuffer.isView(value) && typeof value[Symbol.iterator] === 'function';
   if (!Array.isArray(value) && !isOfNumbers) throw invalid(path, `${quoted(value)} is no array`);
-  if (!field.resolvedType && Array.isArray(value[0])) throw invalid(`${path}[0]`, `${quoted(value[0])} is no number; ${field.name} is one flat list: give lists.flat()`);
+  if (!field.resolvedType && Array.isArray(value[0])) throw invalid(`${path}[0]`, `${quoted(value[0])} is not a number; ${field.name} is one flat list: give lists.flat()`);
   return Array.from(value, (one, index) => single(field, one, `${path}[${index}]`, encoding));
 }
 

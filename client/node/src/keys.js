@@ -69,7 +69,7 @@ const poseOf = ({ rotations, root }) => ({ ...(root && { root_position: { x: roo
 
 /** Reads a Keyframe, and for how long it is held. */
 function readKey(value, field, name, skeleton, warn) {
-  if (!isObject(value)) throw invalid(field, `${quoted(value)} is no key`);
+  if (!isObject(value)) throw invalid(field, `${quoted(value)} is not a key`);
   for (const member of Object.keys(value)) {
     if (!members.includes(member)) throw invalid(`${field}.${member}`, `is not known; ${hint(member, members)}`);
   }

@@ -80,10 +80,10 @@ def _list(field, value, path, encoding):
     except TypeError:
         entries = None
     if entries is None:
-        raise invalid(path, f"{quoted(value)} is no list")
+        raise invalid(path, f"{quoted(value)} is not a list")
     entries = list(entries)
     if field.message_type is None and entries and isinstance(entries[0], (list, tuple)):
-        raise invalid(f"{path}[0]", f"{quoted(entries[0])} is no number; {field.name} is one flat list: give [number for one in lists for number in one]")
+        raise invalid(f"{path}[0]", f"{quoted(entries[0])} is not a number; {field.name} is one flat list: give [number for one in lists for number in one]")
     return [_single(field, one, f"{path}[{index}]", encoding) for index, one in enumerate(entries)]
 
 

@@ -89,7 +89,7 @@ def _parsed(text):
 def _key(value, field, name, skeleton):
     """Reads a Keyframe's fields, for how long it is held, and a warning for a jump that will be danced standing."""
     if not isinstance(value, typing.Mapping):
-        raise invalid(field, f"{quoted(value)} is no key")
+        raise invalid(field, f"{quoted(value)} is not a key")
     for member in value:
         if member not in _MEMBERS:
             raise invalid(f"{field}.{member}", f"is not known; {hint(member, list(_MEMBERS))}")

@@ -106,7 +106,7 @@ class Cancellation:
 
     def __init__(self, timeout=None):
         if timeout is not None and (not isinstance(timeout, numbers.Real) or math.isnan(timeout)):
-            raise invalid("timeout", f"{quoted(timeout)} is no number of seconds")
+            raise invalid("timeout", f"{quoted(timeout)} is not a number of seconds")
         for_ever = timeout is None or timeout > threading.TIMEOUT_MAX  # gRPC would misread a longer timeout as past
         self.deadline = None if for_ever else time.monotonic() + timeout
         self._asked = threading.Event()

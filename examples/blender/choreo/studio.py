@@ -34,7 +34,7 @@ def song(path):
     """What a project says of its song: name and bytes."""
     try:
         if not os.path.isfile(path):
-            raise RuntimeError(f"{path} is no file")
+            raise RuntimeError(f"{path} is not a file")
         if os.path.getsize(path) > MOST_BYTES:
             raise RuntimeError(f"{path} is larger than {MOST_BYTES // 2**20} MiB")
         with open(path, "rb") as file:

@@ -22,7 +22,7 @@ constexpr int kMaxMethods = 8;
 /// The films of a method by clip.
 std::map<std::string, std::filesystem::path> FilmsOf(const StudyMethod& method) {
   if (!std::filesystem::is_directory(method.folder))
-    throw InvalidArgument("--method", method.folder.string() + " is no folder");
+    throw InvalidArgument("--method", method.folder.string() + " is not a folder");
   std::map<std::string, std::filesystem::path> films;
   for (const auto& entry : std::filesystem::directory_iterator(method.folder)) {
     const std::filesystem::path& path = entry.path();
@@ -165,7 +165,7 @@ Table ScoreStudy(const std::filesystem::path& key, std::span<const std::filesyst
           sums[clip.at("films").at(ranking[rank])].Add(group, rank);
       }
     } catch (const nlohmann::json::exception& error) {
-      throw InvalidArgument(path.string(), std::string("is no answer: ") + error.what());
+      throw InvalidArgument(path.string(), std::string("is not an answer: ") + error.what());
     }
   }
 

@@ -126,7 +126,7 @@ TEST_F(DancersTest, MirroredInCanonAndApart) {
 
 TEST_F(DancersTest, AreInOneFileAndOnOnePicture) {
   Write(R"({"id": "ada", "place": [-1, 0]}, {"place": [1, 0], "style": "", "mirrored": true})");
-  EXPECT_THAT(DanceAll().said, HasSubstr("dancers.json:dancers[1].style: \"\" is no text"));
+  EXPECT_THAT(DanceAll().said, HasSubstr("dancers.json:dancers[1].style: \"\" is not a text"));
   Write(R"({"id": "ada", "place": [-1, 0]}, {"place": [1, 0], "mirrored": true})");
   Outcome outcome = DanceAll("--seconds 4");
   ASSERT_EQ(outcome.code, 0) << outcome.said;

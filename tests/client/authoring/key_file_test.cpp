@@ -174,7 +174,7 @@ TEST(KeyFileTest, RefusesWhatIsNestedTooDeeply) {
               [&] { Parse(key(nested(3, "0"))); });
   // Brackets in texts are none.
   EXPECT_EQ(Parse(File(R"("id": "\"[[", "time": 1, "rotations": )" + Rotations()))[0].id, "\"[[");
-  ExpectError(ErrorCode::kInvalidArgument, "smpl_poses: 3 is no list", [&] { Parse(key("3")); });
+  ExpectError(ErrorCode::kInvalidArgument, "smpl_poses: 3 is not a list", [&] { Parse(key("3")); });
 }
 
 // Turning Z up into Y up would make a small angle of any.

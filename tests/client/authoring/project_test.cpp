@@ -201,7 +201,7 @@ TEST_F(ProjectTest, NamesInvalidFields) {
   with("seconds", 0, ": 0 is not above 0 and up to 3600");
   with("seconds", 1e300, ": 1e+300 is not above 0 and up to 3600");
   with("seed", -1, ": -1 is not a whole number from 0 on");
-  with("song", 7, ": 7 is no text");
+  with("song", 7, ": 7 is not a text");
   with("lively", {{"tail", 1}}, ".tail: is none of trunk");
   with("lively", {{"trunk", 11}}, ".trunk: 11 is not a number from 0 to 10");
   with("controls", {{"gaze", json::object()}}, ".gaze: is none of root_path, velocity_factors");
@@ -209,13 +209,13 @@ TEST_F(ProjectTest, NamesInvalidFields) {
        ".root_path: does not fit the API's message");
   with("music_dynamics", 1.5, ": 1.5 is not a number from 0 to 1");
   with("variation", -1, ": -1 is not a number from 0 to 1");
-  with("beats", 7, ": 7 is no list");
+  with("beats", 7, ": 7 is not a list");
   with("beats", {7}, "[0]: 7 is not a beat: its second and its count, 1 to 16, as in [12.5, 1]");
   with("beats", json::array({{0.5, 17}}), "[0]: [0.5,17] is no beat");
   with("beats", json::array({{601, 1}}), "[0]: 601 s is not within 0 to 600");
   with("beats", {{1, 1}, {1, 2}}, "[1]: 1 s is not after the beat before it, 1 s");
   with("bar", 0, ": 0 is not a whole number from 1 to 16");
-  with("path", 7, ": 7 is no object");
+  with("path", 7, ": 7 is not an object");
   with("path", {{"points", json::array()}}, ":points");
   with("path",
        {{"points", {{{"frame", 0}, {"x", 0}, {"z", 0}}, {{"frame", 0}, {"x", 1}, {"z", 0}}}}},

@@ -138,7 +138,7 @@ def main():
     check("a style that is none is named", "foxtrot" in refused(bpy.ops.choreo.dance))
     settings.style = ""
     settings.song = SONG + ".none"
-    check("a song that is not there is named", "is no file" in refused(bpy.ops.choreo.dance))
+    check("a song that is not there is named", "is not a file" in refused(bpy.ops.choreo.dance))
     settings.song = ""
 
     # Silent, at another rate: the keys stay where they are marked.

@@ -109,7 +109,7 @@ TEST_F(CasesTest, TheLogOfArrays) {
   npz.SetText("fps", "30");
   EXPECT_EQ(ReadNpz(npz).motion.fps, 30);
   npz.SetText("fps", "many");
-  ExpectError(ErrorCode::kInvalidArgument, "fps: \"many\" is no number; --fps says one",
+  ExpectError(ErrorCode::kInvalidArgument, "fps: \"many\" is not a number; --fps says one",
               [&] { ReadNpz(npz); });
   EXPECT_EQ(ReadNpz(npz, {.fps = 25}).motion.fps, 25);
   // A note names two rates that differ, and --fps decides.

@@ -203,7 +203,7 @@ TEST_F(CasesTest, AGltfThatIsText) {
       [&] { ReadFile("a.gltf"); });
   for (const char* elsewhere : {"../the dance.bin", "/etc/passwd"}) {
     glb.document["buffers"][0]["uri"] = elsewhere;
-    ExpectError(ErrorCode::kInvalidArgument, "is no file beside it",
+    ExpectError(ErrorCode::kInvalidArgument, "is not a file beside it",
                 [&] { ReadBytes("a.gltf", glb.document.dump()); });
   }
   // Four bytes of time, which are 0.

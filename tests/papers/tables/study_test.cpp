@@ -114,7 +114,7 @@ TEST_F(Study, BadInputIsRefusedByName) {
   };
   ExpectError(ErrorCode::kInvalidArgument, "2 to 8", make({methods_[0]}));
   ExpectError(ErrorCode::kInvalidArgument, "two are called", make({methods_[0], methods_[0]}));
-  ExpectError(ErrorCode::kInvalidArgument, "is no folder",
+  ExpectError(ErrorCode::kInvalidArgument, "is not a folder",
               make({methods_[0], {"none", folder_ / "none"}}));
   std::filesystem::create_directories(folder_ / "empty");
   ExpectError(ErrorCode::kInvalidArgument, "no clip",
@@ -139,8 +139,8 @@ TEST_F(Study, BadInputIsRefusedByName) {
   };
   ExpectError(ErrorCode::kInvalidArgument, "twice", score(ranks(1, {"A", "A"})));
   ExpectError(ErrorCode::kInvalidArgument, "ranks 1 of 2", score(ranks(1, {"A"})));
-  ExpectError(ErrorCode::kInvalidArgument, "is no answer", score(ranks(1, {"A", "C"})));
-  ExpectError(ErrorCode::kInvalidArgument, "is no answer", score(ranks(3, {"A", "B"})));
+  ExpectError(ErrorCode::kInvalidArgument, "is not an answer", score(ranks(1, {"A", "C"})));
+  ExpectError(ErrorCode::kInvalidArgument, "is not an answer", score(ranks(3, {"A", "B"})));
 }
 
 }  // namespace choreo::study_test

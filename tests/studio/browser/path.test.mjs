@@ -172,7 +172,7 @@ await inStudio(async ({ page, until, settle, rest, message, frames, give, downlo
   await check('paths in files that cannot be are refused in words', async () => {
     const key = { id: 'a', time: 1, rotations: Array(24).fill([0, 0, 0]) };
     for (const [path, words] of [
-      [7, /path\.json:path: 7 is no object/],
+      [7, /path\.json:path: 7 is not an object/],
       [{ points: [] }, /path\.json:path:points: is empty/],
       [{ points: [{ frame: 3, x: 0, z: 0 }, { frame: 3, x: 1, z: 0 }] }, /path:points\[1\]\.frame: is frame 3, as that of the point before it/],
       [{ points: [{ frame: 3, x: 'far', z: 0 }, { frame: 9, x: 1, z: 0 }] }, /path:points\[0\]\.x: "far" is not a number/],
