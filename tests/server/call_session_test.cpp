@@ -24,6 +24,7 @@ struct SlowWire : Outbox<Response>::Wire {
 };
 
 struct PausedOrNot {
+  bool IsSampling() const { return false; }
   void SetPaused(bool now) { paused = now; }
   void Cancel() {}
   bool paused = false;
