@@ -57,7 +57,7 @@ class PlanStander {
       if (!context_.held)
         offset_ = PelvisOffset(Supports(), centres_.front() - context_.offset_before.col(1),
                                {.returns = context_.keyed,
-                                .on_path = context_.has_path,
+                                .heights_alone = context_.has_path,
                                 .before = context_.offset_before,
                                 .fps = context_.fps,
                                 .options = context_.options});
@@ -99,7 +99,7 @@ class PlanStander {
     return -WayToHull(point, std::move(hull), context_.options.sole);
   }
 
-  // The pelvis hardly leaves a path for its feet, so the feet move under the body: each stance
+  // The pelvis cannot sway over the feet on a path, so the feet move under the body: each stance
   // moves by its mean distance from there. Stances of the history and of a key stay.
   void StepUnder() {
     for (size_t side = 0; side < 2; ++side) {

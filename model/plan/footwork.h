@@ -17,7 +17,7 @@ struct FootworkContext {
   bool keyed = false;             ///< the last pose is a key, which must not change
   bool held = false;              ///< the plan holds the pose of the last history frame
   bool has_path = false,
-       has_heights = false;  ///< a path leads the root on the floor, and gives its height
+       has_heights = false;  ///< a path fixes the root on the floor, and its height
   /// Footwork::offset of the preceding frames, if they had footwork.
   Eigen::Matrix<double, 3, 2> offset_before = Eigen::Matrix<double, 3, 2>::Zero();
   double fps;

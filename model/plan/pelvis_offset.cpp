@@ -76,7 +76,7 @@ class PelvisSolver {
     const auto last = std::find_if(frames.rbegin(), frames.rend(), bears).base();
     first_borne_ = static_cast<int>(first - frames.begin());
     last_borne_ = static_cast<int>(last - frames.begin()) - 1;
-    if (!rules.on_path) {
+    if (!rules.heights_alone) {  // on a path they stay as planned, because it may set the height
       lands_ = Lands();
       takes_off_ = TakesOff();
     }
@@ -103,7 +103,6 @@ class PelvisSolver {
       }
       offset_.leftCols(moved_) = problem.Solve().reshaped(3, moved_);
     }
-    if (rules_.on_path) StayNearPath();
     return offset_;
   }
 
@@ -137,7 +136,7 @@ class PelvisSolver {
     return fall / 4 < kGive && Planned(count_ - 1).y() - lowest > fall / 2;
   }
   LeastSquares::Term Term(int frame, int axis, double factor) const {
-    const bool fixed = frame < 0 || frame >= moved_;
+    const bool fixed = frame < 0 || frame >= moved_ || (axis != 1 && rules_.heights_alone);
     return {fixed ? -1 : 3 * frame + axis, factor, Offset(frame, axis)};
   }
   double Offset(int frame, int axis) const {
@@ -180,17 +179,6 @@ class PelvisSolver {
                  kFirm / Square(rules_.options.acceleration * step_));
   }
 
-  // Shortens the way beside the path, smoothly, to less than FootworkOptions::offset.
-  void StayNearPath() {
-    for (int frame = 0; frame < moved_; ++frame) {
-      auto offset = offset_.col(frame);
-      const double metres = std::hypot(offset.x(), offset.z());
-      const double share = 1 / std::hypot(1.0, metres / rules_.options.offset);
-      offset.x() *= share;
-      offset.z() *= share;
-    }
-  }
-
   // The acceleration of the offset, per frame squared.
   double OffsetStep(int frame, int axis) const {
     return Offset(frame + 1, axis) - 2 * Offset(frame, axis) + Offset(frame - 1, axis);
@@ -205,6 +193,7 @@ class PelvisSolver {
   // The centre of mass (lever 0) and the zero moment point move with the body, the latter against
   // its acceleration; their target is the nearest point at the feet.
   void AddBalance(int frame, double lever, LeastSquares* problem) const {
+    if (rules_.heights_alone) return;
     Eigen::Vector2d point;
     for (const int axis : {0, 2}) {
       const double step = lever == 0 ? 0 : PlannedStep(frame)[axis] + OffsetStep(frame, axis);
@@ -222,6 +211,7 @@ class PelvisSolver {
   // The capture point c + c' sqrt(h / g) must be at the feet (Pratt 2006), so that the body also
   // stands after an open end; otherwise toppling would be cheapest.
   void AddCapture(LeastSquares* problem) const {
+    if (rules_.heights_alone) return;
     const int frame = count_ - 1;
     const double height = std::max(0.0, Planned(frame).y() + Offset(frame, 1));
     const double lead = std::sqrt(height / kGravity) * rules_.fps;

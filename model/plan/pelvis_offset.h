@@ -25,10 +25,8 @@ struct SupportFrame {
 
 /// Limits on the motion of the pelvis, which moves the whole body.
 struct PelvisRules {
-  bool returns = false;  ///< zero in the last frame, which is a key
-  /// A path leads: the pelvis sways around it by less than FootworkOptions::offset on the floor,
-  /// and does not leap, as the path may set the height.
-  bool on_path = false;
+  bool returns = false;        ///< zero in the last frame, which is a key
+  bool heights_alone = false;  ///< only heights move, as a path fixes the floor position
   /// The offset in the two frames before the first, oldest first.
   Eigen::Matrix<double, 3, 2> before = Eigen::Matrix<double, 3, 2>::Zero();
   double fps;

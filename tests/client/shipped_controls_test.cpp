@@ -132,7 +132,7 @@ TEST_F(ShippedControlsTest, FollowsADrawnPathThroughKeys) {
     furthest = std::max(
         furthest, (Eigen::Vector2d(root.x(), root.z()) - controls.root_path->points[i]).norm());
   }
-  EXPECT_LT(furthest, 0.15);  // it sways over its feet, most of the time by less than 0.1 m
+  EXPECT_LT(furthest, 0.05);
   ASSERT_EQ(dance.report.keys.size(), 4U);
   for (const KeyReached& key : dance.report.keys) {
     EXPECT_LT(key.final_error_m, 1e-3) << key.id;
