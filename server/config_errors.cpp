@@ -72,8 +72,8 @@ std::string Unconverted(const std::string& said) {
   const std::string flag = said.substr(kBefore.size(), at - kBefore.size());
   const auto number = std::ranges::find(kNumbers, flag, &NumberSetting::flag);
   const std::string wanted = number == kNumbers.end() ? "neither true nor false"
-                             : number->whole          ? "no whole number in " + RangeOf(*number)
-                                                      : "no number in " + RangeOf(*number);
+                             : number->whole          ? "not a whole number in " + RangeOf(*number)
+                                                      : "not a number in " + RangeOf(*number);
   return flag + ": \"" + said.substr(at + kBetween.size()) + "\" is " + wanted;
 }
 

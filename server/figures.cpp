@@ -275,7 +275,7 @@ class Figures {
       Histogram::Snapshot Histograms::*of;
     };
     static constexpr Figure kFigures[] = {
-        {"slice_seconds", "Time of one slice of a transition, for which other work waits.",
+        {"slice_seconds", "Time of one slice of a transition, for which all else waits.",
          &Histograms::slice_s},
         {"transition_seconds", "Time of a transition, all of its slices.",
          &Histograms::transition_s},

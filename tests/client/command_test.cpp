@@ -348,7 +348,7 @@ TEST_F(CommandTest, RendersAVideoWithTheSongOfItsReport) {
   EXPECT_EQ(film(report + " --song " + At("other.wav")).second, whole) << "another song";
   const auto [absent, silent] = film(report);
   EXPECT_EQ(silent, "silence");
-  EXPECT_THAT(absent, HasSubstr("is not there; without --song the film is silent"));
+  EXPECT_THAT(absent, HasSubstr("does not exist; without --song the film is silent"));
 }
 
 TEST_F(CommandTest, DescribesTheServerAndItsPoses) {
@@ -387,10 +387,10 @@ TEST_F(CommandTest, FailsWithOneLineAndCodeOne) {
   expect_failure("dance " + At("song.wav") + Server() + "--temperature 9",
                  "choreo: --temperature: 9 is not in [0, 2]");
   expect_failure("dance " + At("song.wav") + Server() + "--style odd",
-                 "choreo: --style: \"odd\" is no style of");
+                 "choreo: --style: \"odd\" is not a style of");
   expect_failure("dance " + At("noise.wav") + Server(), "noise.wav");
   expect_failure("transition --from swan --to kick --out " + At("t.npz") + Server(),
-                 "swan: is no pose of the library");
+                 "swan: is not a pose of the library");
   expect_failure("convert " + At("song.wav") + " " + At("b.npz"),
                  "song.wav: has the extension '.wav', must be .npz, .bvh, .glb");
   WriteMotion(folder_ / "a.npz", Body(), {.fps = 30, .frames = {RestPose(Body())}});
@@ -411,7 +411,7 @@ TEST_F(CommandTest, KeepsAServerForOthers) {
   const std::string choreo = At("choreo");
   const Outcome alone = Shell(choreo + " info");
   EXPECT_EQ(alone.code, 0) << alone.said;
-  EXPECT_THAT(alone.said, testing::ContainsRegex("note: a server is started .*: choreo serve, and "
+  EXPECT_THAT(alone.said, testing::ContainsRegex("note: starting a server .*: choreo serve, and "
                                                  "CHOREO_SERVER=127.0.0.1:50051 for commands\n"));
   const Outcome kept =
       Shell(choreo + " serve --listen 127.0.0.1:0 >" + At("said") + " & until grep -q listens " +

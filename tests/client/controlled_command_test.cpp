@@ -148,7 +148,7 @@ TEST_F(ControlledCommandTest, BadVelocityFilesAreRefused) {
   refused(R"({"factors": [{"time": 1, "arms": 1}, {"time": 0.5, "arms": 1}]})",
           "v.json:factors[1].time: is frame 15, not after that of the point before it, 30");
   refused(R"({"factors": [{"time": 0, "arms": 1}], "speeds": []})",
-          "v.json:speeds: stands beside factors");
+          "v.json:speeds: cannot be combined with factors");
   refused(R"({"factors": [{"time": 0, "arms": 1}], "unit": "m"})", "v.json:unit: is not known");
   refused("{}", "v.json: has no list \"factors\"");
   refused(R"({"factors": [{"time": 0}]})", "v.json:factors[0]: names no part of the body");
@@ -235,7 +235,7 @@ TEST_F(ControlledCommandTest, AnEditWarnsAsAWholeAndNamesItsKeys) {
     }
     return messages;
   };
-  const std::string nothing = "nothing comes of it";
+  const std::string nothing = "it has no effect";
   const std::string first = warned(frame(0) + 5, frame(1));
   EXPECT_THAT(first,
               testing::AllOf(HasSubstr("key \"groove\" lies"), testing::Not(HasSubstr(nothing))));
@@ -395,7 +395,7 @@ TEST_F(ControlledCommandTest, ModelWithoutControlsRefusesThem) {
   EXPECT_EQ(outcome.code, 1);
   EXPECT_THAT(
       outcome.said,
-      HasSubstr("--path: the model \"fake\" does not have this control, nor has any other"));
+      HasSubstr("--path: the model \"fake\" does not have this control, and no other model"));
   outcome = Choreo("transition" + Server() + "--from kick --to groove --velocity all=2 -o " +
                    At("x.npz"));
   EXPECT_EQ(outcome.code, 1);

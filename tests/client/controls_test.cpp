@@ -112,7 +112,7 @@ TEST(ControlsTest, SurviveTheLossOfAServer) {
       }
       // The speeds of parts are measured from the resume on.
       const auto* warning = std::get_if<Warning>(&*message);
-      if (warning != nullptr && !warning->message.starts_with("parts are not as fast"))
+      if (warning != nullptr && !warning->message.starts_with("parts do not move"))
         result.warnings.push_back(*warning);
       if (std::holds_alternative<Resumed>(*message)) ++result.resumes;
     }

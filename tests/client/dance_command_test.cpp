@@ -117,8 +117,9 @@ TEST_F(CommandTest, DancesThroughTheExampleInWords) {
   const auto is_held = [](const auto& key) { return key.value("holds", "") == "strong"; };
   EXPECT_EQ(std::ranges::count_if(report["keyframes"], is_held), 2);
   EXPECT_THAT(outcome.said, HasSubstr("8 key poses, each hit"));
-  EXPECT_THAT(outcome.said,
-              HasSubstr("on the way to a key the model's frames are bent towards it: a joint by "));
+  EXPECT_THAT(
+      outcome.said,
+      HasSubstr("before a key the model's frames are steered towards it: a joint by at most "));
   EXPECT_TRUE(report["warnings"].empty()) << report["warnings"];
 }
 
@@ -190,7 +191,7 @@ TEST_F(CommandTest, BeginsAtTheRequestedSecondOfTheSong) {
         "render --video " + At("d.mp4") + " " + At("d.npz"), "live" + Server()}) {
     const Outcome refused = Choreo(without + " --song-start 1");
     EXPECT_EQ(refused.code, 2) << without;
-    EXPECT_THAT(refused.said, HasSubstr("--song-start: there is no song"));
+    EXPECT_THAT(refused.said, HasSubstr("--song-start: needs a song"));
   }
 }
 

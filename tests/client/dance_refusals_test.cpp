@@ -84,7 +84,7 @@ TEST_F(CommandTest, RefusesKneesThatBendBackwardsUnlessToldOtherwise) {
     EXPECT_EQ(refused.code, 1) << refused.said;
     EXPECT_THAT(refused.said, HasSubstr("keys.json"));
     EXPECT_THAT(refused.said, HasSubstr("key \"bent\": left_knee bends 39.86 degrees backwards, "
-                                        "further than 15; with --allow-bends"));
+                                        "further than 15; --allow-bends"));
     const Outcome taken = Choreo(command + " --allow-bends" + Server() + "-o " + At("e.npz"));
     EXPECT_EQ(taken.code, 0) << taken.said;
     EXPECT_THAT(taken.said, HasSubstr("warning: 2 s (frame 60): key \"bent\""));
@@ -238,7 +238,7 @@ TEST_F(CommandTest, NoOutputDestroysAnotherOrAnInput) {
           "d.npz is the file that --from is read from");
   refused("convert " + At("d.npz") + " " + At("link.npz"), "the file that in is read from");
   refused("analyze " + At("song.wav") + " --features " + At("song.wav"), "song is read from");
-  std::ofstream(folder_ / "s.png") << "mine";
+  std::ofstream(folder_ / "s.png") << R"({"fps": 30, "keyframes": []})";
   refused("render " + At("d.npz") + " --out " + At("s.png") + " --report " + At("s.png"),
           "s.png is the file that --report is read from");
   EXPECT_EQ(read("song.wav"), song);
@@ -260,7 +260,7 @@ TEST_F(CommandTest, RefusesInvalidNumbers) {
   refused("dance --seed -1 " + At("song.wav"), "-1 is not a whole number from 0");
   const std::string transition = "transition --from kick --to groove -o " + At("t.npz");
   refused(transition + " --at -1", "\"-1\" is neither seconds (2.5) nor counts (8c)");
-  refused(transition + " --at 2", "--at: there is nothing whose second it could be");
+  refused(transition + " --at 2", "--at: needs --song, --path or a file for --velocity");
   refused(transition + " --hit 3.1", "3.1 is not a number from 0 to 3");
   refused(transition + " -n 9999999999999", "is not a whole number from 1 to 2147483647");
   refused(transition + " -n 99999999999999999999999", "is not a whole number from 1 to 2147483647");

@@ -93,7 +93,8 @@ TEST_F(EditTest, TheReportsBeatsAreCountedAsAskedOrRefused) {
   EXPECT_EQ(edit(given + " --half-time"), "150");
   for (const std::string option : {"--half-time", "--double-time"}) {
     EXPECT_THAT(edit(" " + option), HasSubstr(option + ": "));
-    EXPECT_THAT(edit(" " + option), HasSubstr("say of which beats: --beats auto, or --beats FILE"));
+    EXPECT_THAT(edit(" " + option),
+                HasSubstr("choose which beats to change: --beats auto, or --beats FILE"));
   }
 }
 
@@ -280,11 +281,13 @@ TEST_F(EditTest, TheReportOfADanceThatLooksOtherwiseIsRefused) {
   ASSERT_EQ(dance("crouch", "other"), 0);
   Outcome outcome = Edit("--key kick --at 4.5 --report " + At("other.json") + " -o " + At("n.npz"));
   EXPECT_EQ(outcome.code, 1);
-  EXPECT_THAT(outcome.said, HasSubstr("other.json: is another dance's report: this one looks "));
+  EXPECT_THAT(outcome.said,
+              HasSubstr("other.json: is the report of another dance, which differs "));
   const std::string render = "render " + At("dance.npz") + " --out " + At("s.png") + " --report ";
   outcome = Choreo(render + At("other.json"));
   EXPECT_EQ(outcome.code, 1);
-  EXPECT_THAT(outcome.said, HasSubstr("other.json: is another dance's report: this one looks "));
+  EXPECT_THAT(outcome.said,
+              HasSubstr("other.json: is the report of another dance, which differs "));
   outcome = Choreo(render + At("dance.json"));
   EXPECT_EQ(outcome.code, 0) << outcome.said;
   EXPECT_THAT(outcome.said, Not(HasSubstr("looks otherwise")));

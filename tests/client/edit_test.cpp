@@ -218,7 +218,7 @@ TEST_F(EditTest, RefusesImpossibleEdits) {
   };
   expect_failure("", "--key: is missing, and so are --move, --remove");
   expect_failure("--key kick", "--at: 0 times for 1 keys");
-  expect_failure("--key swan --at 1", "swan: is no pose of the library");
+  expect_failure("--key swan --at 1", "swan: is not a pose of the library");
   expect_failure("--key kick --at 3 --key groove --at 3.001",
                  "--key: kick and groove both ask for 3 s");
   for (const std::string around : {"1e300", "0.01", "60"}) {

@@ -78,7 +78,7 @@ TEST_F(MarkersTest, RefusalsSayWhatIsThere) {
   ExpectRefused(Edit("--mark verse 4.01"), "--mark: 4.01 s is where drop@4 stands");
   ExpectRefused(Edit("--mark x 4000"), "--mark");
   ExpectRefused(Edit("--mark x 3c"), "--mark: 3c: counts need music that has beats");
-  ExpectRefused(Edit(""), "nothing is to be changed");
+  ExpectRefused(Edit(""), "nothing to change");
   ExpectRefused(Edit("--mark x 3 --mirror"), "p.json is a project");
   std::ofstream(folder_ / "d.npz") << "no dance";
   ExpectRefused(Choreo("edit " + At("d.npz") + " --mark x 3 -o " + At("q.json")),

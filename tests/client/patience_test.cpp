@@ -77,7 +77,7 @@ grpc::Status Draining() {
   why.set_reason("DRAINING");
   google::rpc::Status details;
   details.add_details()->PackFrom(why);
-  return {grpc::StatusCode::UNAVAILABLE, "the server is going away", details.SerializeAsString()};
+  return {grpc::StatusCode::UNAVAILABLE, "the server is draining", details.SerializeAsString()};
 }
 
 TEST(PatienceTest, LeavesAServerThatDrainsAtOnce) {

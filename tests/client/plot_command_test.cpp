@@ -144,7 +144,7 @@ TEST_F(PlotCommandTest, NamesMotionsThatDoNotFit) {
   refused("path " + both + " --label one", "--label: 1 of them for 2 motions");
   refused("trunk " + both + " --path " + At("path.json"), "--path: says nothing of the speed");
   refused("path " + both + " --asked 1", "--asked: goes with a part of the body, not with path");
-  refused("beats " + At("slow.npz"), "--song: beats want the song");
+  refused("beats " + At("slow.npz"), "--song: beats need the song");
   refused("path " + At("slow.npz") + " --song " + At("path.json"), "--song: goes with beats");
   refused("beats " + both + " --song " + At("path.json"),
           "motions: 2, but beats are plotted of one");

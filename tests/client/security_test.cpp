@@ -85,7 +85,7 @@ TEST_F(TlsTest, OnlyTrustingClientsConnect) {
   const Options trusting = Trusting(*server, authority_);
   const DanceResult danced = Client(trusting).Dance({.seed = 1, .frames = 40}, {}, {});
   EXPECT_EQ(danced.motion.frames.size(), 40U);
-  ExpectError(ErrorCode::kUnavailable, "not of the authority trusted (--ca)",
+  ExpectError(ErrorCode::kUnavailable, "not from the trusted authority (--ca)",
               [&] { Client(Trusting(*server, stranger_)).IsServing(); });
   ExpectError(ErrorCode::kUnavailable, "; it may need TLS, which is off",
               [&] { Client({.addresses = {server->address()}, .retry_s = 0}).GetServerInfo(); });
@@ -123,7 +123,7 @@ TEST_F(TlsTest, AServerWithAnExpiredCertificateIsAlive) {
   ::unsetenv("CHOREO_CLIENT_CERT");
   ::unsetenv("CHOREO_CLIENT_KEY");
   EXPECT_EQ(identified.code, 0) << identified.said;
-  ExpectError(ErrorCode::kInvalidArgument, "token_file: no token goes to", [&] {
+  ExpectError(ErrorCode::kInvalidArgument, "token_file: a token is not sent to", [&] {
     const Client client({.addresses = {server->address()},
                          .tls = true,
                          .any_certificate = true,
@@ -508,8 +508,9 @@ TEST_F(TokensTest, AnEmptiedFileRevokesAll) {
     Write("tokens", alice);
     EXPECT_EQ(tokens.Refresh(), true);
   }
-  EXPECT_THAT(log.text(), HasSubstr("[warning] --tokens: " + (folder_ / "tokens").string() +
-                                    " holds no token, no line \"SHA256 NAME\"; nobody is let in"));
+  EXPECT_THAT(log.text(),
+              HasSubstr("[warning] --tokens: " + (folder_ / "tokens").string() +
+                        " holds no token, no line \"SHA256 NAME\"; no call is accepted"));
 }
 
 // A file that cannot be read may come back in a moment, so it revokes no dance.
@@ -616,11 +617,11 @@ TEST_F(TokensTest, ARawTokenInTheFileIsTold) {
 
 TEST_F(TokensTest, AreSentOnlyOverTlsOrLocally) {
   Write("token", "correct-horse");
-  ExpectError(ErrorCode::kInvalidArgument, "over TLS alone", [&] {
+  ExpectError(ErrorCode::kInvalidArgument, "only over TLS", [&] {
     Client({.addresses = {"127.0.0.1:1", "example.test:1"}, .token_file = folder_ / "token"});
   });
   for (const std::string name : {"127.example.test:1", "localhost.example.test:1"}) {
-    ExpectError(ErrorCode::kInvalidArgument, "over TLS alone",
+    ExpectError(ErrorCode::kInvalidArgument, "only over TLS",
                 [&] { Client({.addresses = {name}, .token_file = folder_ / "token"}); });
   }
 }

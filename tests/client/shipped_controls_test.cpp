@@ -112,7 +112,7 @@ TEST_F(ShippedControlsTest, CommandPrintsSpeeds) {
                                  server_->address() + " -o " + (folder / "d.npz").string());
   EXPECT_EQ(outcome.code, 0) << outcome.said;
   EXPECT_THAT(outcome.said, testing::HasSubstr("by model \"default\""));
-  EXPECT_THAT(outcome.said, testing::HasSubstr("speeds danced (and asked)"));
+  EXPECT_THAT(outcome.said, testing::HasSubstr("speeds danced (and requested)"));
 }
 
 TEST_F(ShippedControlsTest, InfoNamesThePretrainedModel) {

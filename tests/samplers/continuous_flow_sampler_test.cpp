@@ -75,7 +75,7 @@ TEST_F(ContinuousFlowSamplerTest, RefusesUnprintableNamesAndFilesOverAGigabyte) 
   content.tensors.at("velocity_covariance").data.front() = NAN;
   content.metadata["hash"] = ContentHash(content, "hash");
   WriteSafetensors(path_, content);
-  refused("is no covariance");
+  refused("is not a covariance");
   std::filesystem::resize_file(path_, (uintmax_t{1} << 30) + 1);  // sparse
   refused("1073741825 bytes, the limit is 1073741824");
 }

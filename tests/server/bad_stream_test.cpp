@@ -195,7 +195,7 @@ INSTANTIATE_TEST_SUITE_P(
         {"Downbeats",
          WithConfig("music_beats: [1, 1.5] music_downbeats: [1.5, 2]"),
          "config.music_downbeats[1]",
-         {"2 s", "none of the beats"}},
+         {"2 s", "not one of the beats"}},
         {"BeatsConfidence",
          Sent({kConfig, "music_beats { times: 1 confidence: 1.5 }"}),
          "music_beats[0].confidence",

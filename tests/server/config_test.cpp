@@ -118,7 +118,7 @@ TEST(ServerConfigTest, SaysWhereInTheFileAnErrorIs) {
   };
   const std::string at = "choreod: " + path + ":2: ";
   EXPECT_EQ(said("workers = \"many\"\n"),
-            at + "--workers: \"many\" is no whole number in [0, 1024]\n");
+            at + "--workers: \"many\" is not a whole number in [0, 1024]\n");
   EXPECT_EQ(said("workers = -1\n"), at + "--workers: -1 is not in [0, 1024]\n");
   EXPECT_EQ(said("workers = -1\n", {"--workers=-2"}),
             "choreod: --workers: -2 is not in [0, 1024]\n");
@@ -251,7 +251,7 @@ TEST(ServerConfigTest, ErrorsAreOfOneShape) {
   };
   EXPECT_EQ(said({"--workers", "-1"}), "choreod: --workers: -1 is not in [0, 1024]\n");
   EXPECT_EQ(said({"--workers", "many"}),
-            "choreod: --workers: \"many\" is no whole number in [0, 1024]\n");
+            "choreod: --workers: \"many\" is not a whole number in [0, 1024]\n");
   EXPECT_EQ(said({"--max-load", "much"}),
             "choreod: --max-load: \"much\" is not a number in [0.1, 2]\n");
   EXPECT_EQ(said({"--insecure=maybe"}),

@@ -181,7 +181,7 @@ TEST_F(LifecycleTest, DrainLetsShortDancesFinishAndEndsTheOthers) {
       },
       "new calls are refused");
   EXPECT_EQ(refused.error_code(), grpc::StatusCode::UNAVAILABLE);
-  EXPECT_NE(refused.error_message().find("going away"), std::string::npos);
+  EXPECT_NE(refused.error_message().find("draining"), std::string::npos);
   EXPECT_TRUE(IsDraining());
   probe->Open();
   const Answer& answer = brief.Finish();

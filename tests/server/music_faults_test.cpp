@@ -110,7 +110,7 @@ TEST_F(MusicFaultsTest, FramesBeyondTheMusicAreDancedWithAWarning) {
   ASSERT_TRUE(answer.status.ok()) << answer.status.error_message();
   const v1::Event event = TheWarning(answer.events, v1::WARNING_CODE_DANCE_BEHIND_MUSIC);
   EXPECT_EQ(event.frame(), 30);
-  EXPECT_TRUE(Says(event, "it goes on for 2 s in silence")) << event.warning().message();
+  EXPECT_TRUE(Says(event, "it continues for 2 s in silence")) << event.warning().message();
   EXPECT_EQ(answer.Join().count, 90);
   for (const int frames : {29, 30, 31}) {
     requests[0].mutable_config()->set_frames(frames);

@@ -29,9 +29,9 @@ TEST_F(PosesTest, AreFiniteOrTheDanceFails) {
   const Answer answer = Dance({request});
   EXPECT_EQ(answer.status.error_code(), grpc::StatusCode::INTERNAL);
   // Footwork is planned for all frames of a transition together.
-  EXPECT_THAT(answer.status.error_message(),
-              testing::ContainsRegex(
-                  "^frame [67][0-9], as arrival and footwork leave it, is not a finite pose$"));
+  EXPECT_THAT(
+      answer.status.error_message(),
+      testing::ContainsRegex("^frame [67][0-9], as arrival and footwork leave it, is not finite$"));
   const Answer::Joined joined = answer.Join();
   EXPECT_EQ(joined.count, 60);  // the transition before
   for (const float number : joined.root_positions) ASSERT_TRUE(std::isfinite(number));

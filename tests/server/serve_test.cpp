@@ -109,7 +109,7 @@ TEST_F(ServeTest, StopsWhileLoadingItsFirstModel) {
     Send(signal);
     const Outcome outcome = End();
     EXPECT_EQ(outcome.code, 0) << outcome.said;
-    EXPECT_THAT(outcome.said, HasSubstr("leaves at once"));
+    EXPECT_THAT(outcome.said, HasSubstr("exits immediately"));
   }
 }
 
@@ -279,7 +279,7 @@ TEST_F(ServeTest, StopsAtOnceWhenSignalledTwice) {
   Send(SIGTERM);
   const Outcome outcome = End();
   EXPECT_EQ(outcome.code, 0) << outcome.said;
-  EXPECT_THAT(outcome.said, HasSubstr("leaves at once"));
+  EXPECT_THAT(outcome.said, HasSubstr("exits immediately"));
   // The interrupted call is logged nevertheless.
   EXPECT_THAT(outcome.said,
               ContainsRegex("\"method\":\"StreamDance\".*\"status\":\"UNAVAILABLE\""));

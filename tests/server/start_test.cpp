@@ -88,7 +88,7 @@ TEST_F(StartTest, ServesAShippedModelByItsName) {
   const Outcome both =
       Shell("'" CHOREOD_PROGRAM "' --model free --checkpoint '" + path_.string() + "'");
   EXPECT_EQ(both.code, 2);
-  EXPECT_THAT(both.said, testing::HasSubstr("--model: \"free\" is a model that ships"));
+  EXPECT_THAT(both.said, testing::HasSubstr("--model: \"free\" is a shipped model"));
 }
 
 // It listens only after it has loaded.

@@ -110,7 +110,7 @@ TEST_F(StarvationTest, CallThatReadsNothingIsReset) {
   ExpectIdle();
   const grpc::Status status = client->Finish().status;
   EXPECT_EQ(status.error_code(), grpc::StatusCode::DEADLINE_EXCEEDED) << status.error_message();
-  EXPECT_THAT(status.error_message(), HasSubstr("not taken within 0.5 s"));
+  EXPECT_THAT(status.error_message(), HasSubstr("took no answer within 0.5 s"));
   EXPECT_THAT(status.error_message(), HasSubstr("unread_s (--unread-seconds)"));
 }
 

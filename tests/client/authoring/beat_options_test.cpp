@@ -134,7 +134,7 @@ TEST_F(MusicBeats, BadLinesAreRefusedByTheirNumber) {
   ExpectError(ErrorCode::kInvalidArgument, "too long", [&] { Read(std::string(5000, '1')); });
   ExpectError(ErrorCode::kInvalidArgument, "beats are in seconds", [&] { Read("500\n1000\n"); });
   ExpectError(ErrorCode::kInvalidArgument,
-              "downbeat: 500 s is after what is heard of the song, its first",
+              "downbeat: 500 s is after the part of the song that is heard, its first",
               [&] { Read("1\n", {.downbeat_s = 500}); });
 }
 

@@ -132,7 +132,7 @@ TEST(KeyFileTest, ErrorsNameTheFieldTheValueAndTheLimit) {
   refused(Key(Rotations("[0, 0, 0]", 23)),
           "keyframes[0].rotations: has 23 entries, not one for each of the 24 joints");
   refused(Key(Rotations(), R"(, "tiem": 3)"), "keyframes[0].tiem: is not known");
-  refused(Key(Rotations(), R"(, "frame": 3)"), "keyframes[0].time: stands beside frame");
+  refused(Key(Rotations(), R"(, "frame": 3)"), "keyframes[0].time: cannot be combined with frame");
   refused(File(R"("rotations": )" + Rotations()), "keyframes[0].time: is missing");
   refused(File(R"("time": -1, "rotations": )" + Rotations()),
           "keyframes[0].time: -1 s is before 0");
@@ -143,7 +143,7 @@ TEST(KeyFileTest, ErrorsNameTheFieldTheValueAndTheLimit) {
           "\"tail\" is not a joint of smpl24");
   const std::string same = R"({"id": "a", "time": 1, "rotations": )" + Rotations() + "}";
   refused(R"({"keyframes": [)" + same + "," + same + "]}",
-          "keyframes[1].id: \"a\" stands for an earlier key");
+          "keyframes[1].id: \"a\" is already the id of an earlier key");
   refused(File(R"("frame": 18446744073709551615, "rotations": )" + Rotations()),
           "keyframes[0].frame: 18446744073709551615 is not a whole number from 0 to 1000000000");
   refused(File(R"("time": 1e300, "rotations": )" + Rotations()),
@@ -270,7 +270,7 @@ TEST(KeyFileTest, TakesPosesOfEdgeAndAmass) {
   refused(R"("smpl_poses": )" + numbers + R"(, "smpl_trans": [0, 1])", "smpl_trans: has the shape");
   refused(R"("smpl_trans": [0, 1, 2])", "keyframes[0].smpl_poses: is missing beside smpl_trans");
   refused(R"("smpl_poses": )" + numbers + R"(, "rotations": )" + Rotations(),
-          "keyframes[0].smpl_poses: stands beside rotations");
+          "keyframes[0].smpl_poses: cannot be combined with rotations");
   refused(R"("smpl_poses": )" + numbers + R"(, "root_position": [0, 1, 0])",
           "keyframes[0].rotations: is missing beside root_position");
   refused(R"("smpl_poses": [0, 0, "x"])", "keyframes[0].smpl_poses[2]: \"x\" is not a number");
@@ -357,7 +357,7 @@ TEST_F(MotionKeysTest, RefusesInvalidTimes) {
   }
   ExpectError(ErrorCode::kInvalidArgument, "second 3.5 is after the motion's end at 3",
               [&] { ReadKeys(path_ + "@3.5", Body()); });
-  ExpectError(ErrorCode::kInvalidArgument, "say which poses", [&] { ReadKeys(path_, Body()); });
+  ExpectError(ErrorCode::kInvalidArgument, "name its poses", [&] { ReadKeys(path_, Body()); });
   ExpectError(ErrorCode::kNotFound, "absent.json", [&] { ReadKeys("absent.json", Body()); });
   ExpectError(ErrorCode::kInvalidArgument, "is a folder, not a key file",
               [&] { ReadKeys(folder_.path().string(), Body()); });

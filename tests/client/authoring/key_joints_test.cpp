@@ -85,7 +85,7 @@ TEST(KeyJointsTest, ErrorsNameTheFieldTheValueAndTheLimit) {
           "keyframes[0].pose: kik: is not a pose of the library; did you mean kick?");
   refused(R"("time": 1, "pose": 3)", "keyframes[0].pose: 3 is not a name");
   refused(R"("time": 1, "pose": "kick", "root_position": [0, 1, 0])",
-          "keyframes[0].root_position: stands beside pose");
+          "keyframes[0].root_position: cannot be combined with pose");
   refused(R"("time": 1, "pose": "kick", "place": [1])", "keyframes[0].place: [1] is not [x, z]");
   refused(R"("time": 1, "pose": "kick", "facing": 400)",
           "keyframes[0].facing: 400 degrees, must be -360 to 360");
@@ -95,7 +95,7 @@ TEST(KeyJointsTest, ErrorsNameTheFieldTheValueAndTheLimit) {
           "keyframes[0].facing: goes with pose");
   refused(R"("time": 1, "joints": {"left_knee": -20})",
           "keyframes[0].joints.left_knee: left_knee is at -20 degrees, must be 0 to 165");
-  refused(R"("time": 1, "joints": {"tail": 1})", "keyframes[0].joints: \"tail\" is no joint");
+  refused(R"("time": 1, "joints": {"tail": 1})", "keyframes[0].joints: \"tail\" is not a joint");
   refused(R"("time": 1, "joints": {})", "keyframes[0].joints: names no joint");
   refused(R"("time": 1, "pose": "kick", "joints": "arms")", "is not a list of joint names");
   refused(R"("time": 1, "pose": "kick", "hold": 0)", "keyframes[0].hold: 0 s, must be 0.1 to 60");

@@ -31,7 +31,7 @@ TEST(LocalServerTest, NoticesThatItIsGone) {
   client.GetServerInfo();
   server.RequireRunning();
   kill(server.process(), SIGKILL);
-  ExpectError(ErrorCode::kUnavailable, "started for this is gone (Killed)",
+  ExpectError(ErrorCode::kUnavailable, "server of this command has ended (Killed)",
               [&] { client.GetServerInfo(); });
   EXPECT_EQ(server.process(), -1);
 }

@@ -211,7 +211,7 @@ TEST_F(ProjectTest, NamesInvalidFields) {
   with("variation", -1, ": -1 is not a number from 0 to 1");
   with("beats", 7, ": 7 is not a list");
   with("beats", {7}, "[0]: 7 is not a beat: its second and its count, 1 to 16, as in [12.5, 1]");
-  with("beats", json::array({{0.5, 17}}), "[0]: [0.5,17] is no beat");
+  with("beats", json::array({{0.5, 17}}), "[0]: [0.5,17] is not a beat");
   with("beats", json::array({{601, 1}}), "[0]: 601 s is not within 0 to 600");
   with("beats", {{1, 1}, {1, 2}}, "[1]: 1 s is not after the beat before it, 1 s");
   with("bar", 0, ": 0 is not a whole number from 1 to 16");

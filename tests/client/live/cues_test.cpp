@@ -193,7 +193,7 @@ TEST(MidiClock, FilesAndFoldersAreNoDevices) {
 
 TEST(MidiClock, RefusesAnEndlessDevice) {
   MidiClock clock("/dev/zero");
-  ExpectError(ErrorCode::kInvalidArgument, "--midi-clock: \"/dev/zero\" is no MIDI device",
+  ExpectError(ErrorCode::kInvalidArgument, "--midi-clock: \"/dev/zero\" is not a MIDI device",
               [&] { clock.Take(1); });
 }
 

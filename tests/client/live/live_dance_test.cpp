@@ -279,7 +279,7 @@ TEST_F(LiveDanceTest, ExcessPosesAreRefusedAndTheDanceContinues) {
   EXPECT_EQ(figures_.back().keys_taken, 2);
   EXPECT_EQ(figures_.back().keys_danced, 2);
   EXPECT_EQ(figures_.back().keys_refused, 1);
-  EXPECT_THAT(notes_, testing::ElementsAre(HasSubstr("all of the 2 poses")));
+  EXPECT_THAT(notes_, testing::ElementsAre(HasSubstr("already has all 2 poses")));
 }
 
 TEST_F(LiveDanceTest, AMinuteOfPosesWaitsAtMost) {

@@ -198,7 +198,7 @@ TEST_F(CasesTest, ReadsPositionsWithFramesLast) {
   }
   NpzArchive npz;
   npz.SetArray("motion", {{2, 22, 3, smpl.frames()}, places});
-  ExpectError(ErrorCode::kInvalidArgument, "joints: are no places", [&] { ReadNpz(npz); });
+  ExpectError(ErrorCode::kInvalidArgument, "joints: are not places", [&] { ReadNpz(npz); });
   const Read read = ReadNpz(npz, {.body = "1"});
   ASSERT_EQ(read.motion.frames.size(), static_cast<size_t>(smpl.frames()));
   EXPECT_LT(

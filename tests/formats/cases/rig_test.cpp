@@ -133,7 +133,7 @@ TEST_F(CasesTest, AnUnusableRestPoseIsEstimatedFromTheClip) {
   };
   WriteBvh(folder_ / "a.bvh", MakeBvh(rig));
   const Read read = ReadFile("a.bvh");
-  EXPECT_TRUE(read.Says("no standing body")) << Said(read);
+  EXPECT_TRUE(read.Says("not a standing body")) << Said(read);
   EXPECT_LT(Compare(read.motion, Walk).limbs, 0.1);
   // The head's turn at rest is unknown; its turns from there are kept.
   const auto looks = [](const std::string& bone, int frame) -> Eigen::Matrix3d {

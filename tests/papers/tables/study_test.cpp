@@ -132,7 +132,7 @@ TEST_F(Study, BadInputIsRefusedByName) {
   ExpectError(ErrorCode::kInvalidArgument, "is given twice", [&] {
     ScoreStudy(folder_ / "study.key.json", std::vector{once, once});
   });
-  ExpectError(ErrorCode::kInvalidArgument, "no file of a study", score({{"answers", {}}}));
+  ExpectError(ErrorCode::kInvalidArgument, "is not a file of a study", score({{"answers", {}}}));
   const auto ranks = [study = Key()["study"]](int clip, const std::vector<std::string>& ranking) {
     return json{{"study", study},
                 {"answers", json::array({{{"clip", clip}, {"ranking", ranking}}})}};
