@@ -1,6 +1,7 @@
 #pragma once
 
 #include <atomic>
+#include <exception>
 #include <memory>
 #include <mutex>
 #include <utility>
@@ -51,13 +52,13 @@ template <class Owner>
 class HandOver {
  public:
   /// Calls `submit` with a job that hands out, unless one is already waiting. If the queue refuses
-  /// the job, this thread hands out the rest.
+  /// the job, or there is no memory for it, this thread hands out the rest.
   void ToWorker(std::shared_ptr<Owner> owner, double deadline, const auto& submit) {
     if (is_requested_.exchange(true)) return;
     Owner& here = *owner;
     try {
       submit(std::make_shared<Job>(std::move(owner), deadline));
-    } catch (const Error&) {
+    } catch (const std::exception&) {
       is_requested_ = false;
       while (here.HandOut()) {
       }

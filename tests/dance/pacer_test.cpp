@@ -8,6 +8,7 @@
 #include <future>
 #include <memory>
 #include <mutex>
+#include <new>
 #include <optional>
 #include <stdexcept>
 #include <thread>
@@ -131,7 +132,7 @@ class Owner : public std::enable_shared_from_this<Owner> {
   Numbers numbers;
   bool cancelled = false;
   std::vector<ErrorCode> failures;
-  bool refuses_jobs = false;
+  bool refuses_jobs = false, has_memory = true;
 
   /// `jobs`: gets those that are submitted.
   explicit Owner(std::vector<std::shared_ptr<SampleJob>>* jobs) : jobs_(jobs) {}
@@ -144,6 +145,7 @@ class Owner : public std::enable_shared_from_this<Owner> {
   void Ask() {
     hand_over_.ToWorker(shared_from_this(), 5, [this](std::shared_ptr<SampleJob> job) {
       if (refuses_jobs) throw Error(ErrorCode::kUnavailable, "", "takes no new jobs");
+      if (!has_memory) throw std::bad_alloc();
       jobs_->push_back(std::move(job));
     });
   }
@@ -196,6 +198,15 @@ TEST_F(HandOverTest, WithoutAWorkerTheCallerHandsOut) {
   owner->Ask();
   EXPECT_THAT(owner->numbers.taken, ElementsAre(1, 2));
   owner->refuses_jobs = false;
+  owner->Ask();
+  EXPECT_EQ(jobs.size(), 1U);
+}
+
+TEST_F(HandOverTest, WithoutMemoryForAJobTheCallerHandsOut) {
+  owner->has_memory = false;
+  owner->Ask();
+  EXPECT_THAT(owner->numbers.taken, ElementsAre(1, 2));
+  owner->has_memory = true;
   owner->Ask();
   EXPECT_EQ(jobs.size(), 1U);
 }
