@@ -138,10 +138,7 @@ DecodedAudio DecodeSong(const std::filesystem::path& path, double seconds, doubl
   try {
     audio = DecodeAudioFile(path, seconds, start, more);
   } catch (const Error& error) {
-    // The refusal suggests ffmpeg; try it if it is installed.
-    if (error.code() != ErrorCode::kInvalidArgument ||
-        std::string_view(error.what()).find(kAskFfmpeg) == std::string_view::npos)
-      throw;
+    if (error.remedy() != Remedy::kConvert) throw;
     audio = DecodeByFfmpeg(path, seconds, start, more);
     if (!audio) throw;
   }

@@ -186,9 +186,10 @@ Error AsTyped(const Error& error) {
       {"video.height", "--size"},
       {"video.width", "--size"},
   };
-  const std::string reason = error.Of("").what();
-  if (reason.ends_with("choose a part of it"))
-    return Error(error.code(), error.field(), reason + " (--song-start, --seconds)");
+  if (error.remedy() == Remedy::kTakePart) {
+    return Error(error.code(), error.field(),
+                 std::string(error.Of("").what()) + " (--song-start, --seconds)");
+  }
   const auto control = std::ranges::find(kControls, error.field(), &ControlRow::name);
   if (control != std::end(kControls)) return error.Of(std::string(control->option));
   const auto option = kOptions.find(error.field());

@@ -67,7 +67,8 @@ std::unique_ptr<SoundReader> Open(const ByteSource& source, const std::string& n
                                     " audio but text, such as a web page or a list of songs");
   throw Error(ErrorCode::kInvalidArgument, name,
               (other.empty() ? "not " : other + " is not ") + std::string(kSoundFormats) +
-                  " audio: " + kAskFfmpeg + " converts anything that ffmpeg reads");
+                  " audio: " + kAskFfmpeg + " converts anything that ffmpeg reads",
+              Remedy::kConvert);
 }
 
 /// Reads a sound file in pieces, within the limits of format.h.
@@ -102,9 +103,10 @@ class LimitedReader {
  private:
   void CheckAmount() const {
     if (kept_ > int64_t{kMaxAudioSeconds} * sample_rate()) {
-      throw InvalidArgument(
-          name_, std::to_string(kept_ / sample_rate()) + " s or more of audio, at most " +
-                     std::to_string(kMaxAudioSeconds) + " s are accepted: choose a part of it");
+      throw Error(ErrorCode::kInvalidArgument, name_,
+                  std::to_string(kept_ / sample_rate()) + " s or more of audio, at most " +
+                      std::to_string(kMaxAudioSeconds) + " s are accepted: choose a part of it",
+                  Remedy::kTakePart);
     }
     if (kept_ * channels() > kMaxFileSamples) {
       throw InvalidArgument(name_, std::to_string(kept_ * channels()) + " samples or more (" +

@@ -13,8 +13,10 @@ namespace choreo {
 namespace {
 
 // Explains a refusal: bytes of other formats can look like MP3 frames.
-std::string NoMpeg(const std::string& why) {
-  return "not MP3 audio, " + why + ": " + kAskFfmpeg + " converts anything that ffmpeg reads";
+Error NoMpeg(const std::string& name, const std::string& why) {
+  return Error(ErrorCode::kInvalidArgument, name,
+               "not MP3 audio, " + why + ": " + kAskFfmpeg + " converts anything that ffmpeg reads",
+               Remedy::kConvert);
 }
 
 constexpr int64_t kSearched = 1 << 17;  // the first frame must begin within this many bytes
@@ -180,7 +182,7 @@ class StretchReader final : public SoundReader {
     mpg123_param(decoder_.get(), is_right ? MPG123_ADD_FLAGS : MPG123_REMOVE_FLAGS, MPG123_GAPLESS,
                  0);
     if (mpg123_open_feed(decoder_.get()) != MPG123_OK || !Decode())
-      throw InvalidArgument(name_, NoMpeg("no frame of it can be decoded"));
+      throw NoMpeg(name_, "no frame of it can be decoded");
     if (!is_right) Skip(stretch.delay);
     if (stretch.stated && *stretch.stated > 0 && *stretch.stated != stretch.frames)
       notes_.push_back("its header says " + std::to_string(*stretch.stated) + " frames, " +
@@ -249,10 +251,11 @@ class StretchReader final : public SoundReader {
     int channels = 0, encoding = 0;
     mpg123_getformat(decoder_.get(), &rate, &channels, &encoding);
     if (sample_rate_ != 0 && (rate != sample_rate_ || channels != channels_)) {
-      throw InvalidArgument(name_, "changes from " + std::to_string(channels_) + " channels at " +
-                                       std::to_string(sample_rate_) + " Hz to " +
-                                       std::to_string(channels) + " at " + std::to_string(rate) +
-                                       ": " + kAskFfmpeg + " converts it to one format");
+      throw Error(ErrorCode::kInvalidArgument, name_,
+                  "changes from " + std::to_string(channels_) + " channels at " +
+                      std::to_string(sample_rate_) + " Hz to " + std::to_string(channels) + " at " +
+                      std::to_string(rate) + ": " + kAskFfmpeg + " converts it to one format",
+                  Remedy::kConvert);
     }
     sample_rate_ = static_cast<int>(rate);
     channels_ = channels;
@@ -309,7 +312,7 @@ std::unique_ptr<SoundReader> ReadMpeg(const ByteSource& source, const std::strin
   std::vector<ByteSource> parts;
   for (const Stretch& stretch : walk.stretches)
     parts.push_back(PartOf(source, stretch.begin, stretch.end));
-  if (parts.empty()) throw InvalidArgument(name, NoMpeg("it has no frame"));
+  if (parts.empty()) throw NoMpeg(name, "it has no frame");
   size_t next = 0;
   auto reader = ReadOneAfterAnother(
       std::move(parts),

@@ -233,9 +233,10 @@ std::unique_ptr<SoundReader> ReadOgg(const ByteSource& source, const std::string
         } else if (link.codec == "flac") {
           reader = ReadOggFlac(part, name);
         } else {
-          throw InvalidArgument(
-              name, (link.codec.empty() ? std::string("another codec") : link.codec) +
-                        " in Ogg is not Vorbis, Opus or FLAC: " + kAskFfmpeg + " converts it");
+          throw Error(ErrorCode::kInvalidArgument, name,
+                      (link.codec.empty() ? std::string("another codec") : link.codec) +
+                          " in Ogg is not Vorbis, Opus or FLAC: " + kAskFfmpeg + " converts it",
+                      Remedy::kConvert);
         }
         return std::make_unique<LinkReader>(std::move(reader), link.is_whole);
       },

@@ -46,8 +46,10 @@ class WavReader final : public SoundReader {
     SF_INFO info{};
     file_.reset(sf_open_virtual(&io, SFM_READ, &info, &cursor_));
     if (!file_) {
-      throw InvalidArgument(name_, std::string("not a known kind of WAV audio: ") +
-                                       sf_strerror(nullptr) + " " + kAskFfmpeg + " may convert it");
+      throw Error(ErrorCode::kInvalidArgument, name_,
+                  std::string("not a known kind of WAV audio: ") + sf_strerror(nullptr) + " " +
+                      kAskFfmpeg + " may convert it",
+                  Remedy::kConvert);
     }
     sample_rate_ = info.samplerate;
     channels_ = info.channels;
@@ -195,9 +197,10 @@ std::unique_ptr<SoundReader> ReadWav(const ByteSource& source, const std::string
     if (format == kMpegLayer3)
       return ReadMpeg(PartOf(source, body, is_right ? body + size : source.size), name);
     if (format == kPcm && IsBurst(source, body)) {
-      throw InvalidArgument(
-          name, std::string("contains data for a receiver, such as AC-3, not samples: ") +
-                    kAskFfmpeg + " converts it");
+      throw Error(ErrorCode::kInvalidArgument, name,
+                  std::string("contains data for a receiver, such as AC-3, not samples: ") +
+                      kAskFfmpeg + " converts it",
+                  Remedy::kConvert);
     }
     if (!is_right && held > 0) {
       notes.push_back("its header says " + std::to_string(size) + " bytes of samples, " +

@@ -20,23 +20,33 @@ enum class ErrorCode {
   kInternal,
 };
 
+/// What a caller can do about a failure, for those that act on it.
+enum class Remedy {
+  kNone,
+  kTakePart,  ///< take a part of the sound, which is too long
+  kConvert,   ///< convert the sound file to another format
+};
+
 /// The only exception type of this project. `field()` is the path of the offending value in the
 /// sender's terms, such as "keyframes[3].rotations[16]", or empty. `what()` names the field, the
 /// value and the limit.
 class Error : public std::runtime_error {
  public:
-  Error(ErrorCode code, std::string field, const std::string& message)
+  Error(ErrorCode code, std::string field, const std::string& message,
+        Remedy remedy = Remedy::kNone)
       : std::runtime_error(WithoutNul(field.empty() ? message : field + ": " + message)),
         code_(code),
+        remedy_(remedy),
         field_(std::move(field)) {}
 
   ErrorCode code() const noexcept { return code_; }
+  Remedy remedy() const noexcept { return remedy_; }
   const std::string& field() const noexcept { return field_; }
   /// Returns the same error for `field`, for callers that know the value by another name.
   Error Of(const std::string& field) const {
     std::string message = what();
     if (!field_.empty() && message.starts_with(field_ + ": ")) message.erase(0, field_.size() + 2);
-    return {code_, field, message};
+    return {code_, field, message, remedy_};
   }
 
  private:
@@ -47,6 +57,7 @@ class Error : public std::runtime_error {
   }
 
   ErrorCode code_;
+  Remedy remedy_;
   std::string field_;
 };
 

@@ -71,7 +71,7 @@ std::string OutcomeOf(const std::filesystem::path& file) {
     return "read";
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ErrorCode::kInvalidArgument);
-    EXPECT_NE(std::string(error.what()).find(kAskFfmpeg), std::string::npos) << error.what();
+    EXPECT_EQ(error.remedy(), Remedy::kConvert) << error.what();
   }
   lasts(authoring::DecodeSong(file, INFINITY, 0));
   return "by ffmpeg";
@@ -122,6 +122,11 @@ TEST(SoundTable, ReportsFfmpegsErrors) {
   make("-f lavfi -i color=size=16x16:duration=1 -c:v mpeg4", "silent.mp4");
   ExpectError(ErrorCode::kInvalidArgument, "audio, and ffmpeg finds no sound in it: ", [&] {
     authoring::DecodeSong(folder / "silent.mp4", INFINITY, 0);
+  });
+  // The name of a file is no reason to ask ffmpeg.
+  WriteFile(folder / (std::string(kAskFfmpeg) + ".wav"), "no song");
+  ExpectError(ErrorCode::kInvalidArgument, "audio but text", [&] {
+    authoring::DecodeSong(folder / (std::string(kAskFfmpeg) + ".wav"), INFINITY, 0);
   });
 }
 

@@ -51,9 +51,12 @@ TEST(WrittenControls, ErrorsNameWhereAControlWasWritten) {
 }
 
 TEST(WrittenControls, ReasonsOfTheApiGetTheOptions) {
-  const Error error(ErrorCode::kInvalidArgument, "song.wav", "700 s or more: choose a part of it");
-  EXPECT_STREQ(cli::AsTyped(error).what(),
-               "song.wav: 700 s or more: choose a part of it (--song-start, --seconds)");
+  const auto typed = [](Remedy remedy) {
+    const Error error(ErrorCode::kInvalidArgument, "audio", "choose a part of it", remedy);
+    return std::string(cli::AsTyped(error.Of("song.wav")).what());
+  };
+  EXPECT_EQ(typed(Remedy::kTakePart), "song.wav: choose a part of it (--song-start, --seconds)");
+  EXPECT_EQ(typed(Remedy::kNone), "song.wav: choose a part of it");
 }
 
 TEST(WrittenControls, AProjectsAreReadAsTheyStand) {
