@@ -38,12 +38,6 @@ std::vector<client::Warning> KeyFaults(const DanceKeys& keys, double fps,
   for (const client::KeyPose& key : keys.poses) poses.push_back(Timed(key, fps));
   std::vector<client::Warning> warnings = keys.warnings;
   for (const TimedFault& fault : DanceFaults(skeleton, poses)) {
-    // A held pose has the faults of its first key, which are reported there.
-    const bool is_held = !keys.places.empty() && IsHeld(keys.places[fault.pose]);
-    const auto is_said = [&](const client::Warning& warning) {
-      return warning.message.ends_with(": " + fault.message);
-    };
-    if (is_held && std::ranges::any_of(warnings, is_said)) continue;
     client::Warning& warning = warnings.emplace_back();
     warning.frame = FrameOf(keys.poses[fault.pose], fps);
     const std::string place = keys.places.empty() ? "" : " (" + keys.places[fault.pose] + ")";
@@ -108,8 +102,7 @@ std::vector<client::Warning> KeyFaults(const client::KeyPose& key, double fps,
   for (const TimedFault& fault : DanceFaults(skeleton, poses)) {
     // Ignores faults of other keys, except on the transitions to and from this key.
     const bool its_own = fault.pose == index;
-    const bool way_from = fault.pose == index + 1 &&
-                          fault.message.find("from \"" + key.id + "\"") != std::string::npos;
+    const bool way_from = fault.pose == index + 1 && fault.on_way;
     if (!its_own && !way_from) continue;
     client::Warning& warning = warnings.emplace_back();
     warning.frame = FrameOf(key, fps);

@@ -145,15 +145,16 @@ std::vector<TimedFault> DanceFaults(const Skeleton& skeleton, const std::vector<
     std::string found[] = {i > 0 ? SpeedFault(skeleton, before, one) : "",
                            PelvisFault(skeleton, before, one), HitFault(before, one)};
     for (std::string& fault : found) {
-      if (!fault.empty()) faults.push_back({i, std::move(fault)});
+      if (!fault.empty()) faults.push_back({i, true, std::move(fault)});
     }
     in_air = AsksForAll(one.mask) && HeightAboveFloor(skeleton, one.pose) > kInAir ? in_air + 1 : 0;
     if (in_air < 2) continue;
     const TimedPose& left = poses[i + 1 - in_air];
     if (one.seconds - left.seconds <= kMaxJumpSeconds) continue;
-    faults.push_back({i, "the body would be in the air for " + Rounded(one.seconds - left.seconds) +
-                             " s, since \"" + left.name + "\"; a jump takes " +
-                             Rounded(kMaxJumpSeconds)});
+    faults.push_back({i, false,
+                      "the body would be in the air for " + Rounded(one.seconds - left.seconds) +
+                          " s, since \"" + left.name + "\"; a jump takes " +
+                          Rounded(kMaxJumpSeconds)});
     in_air = 0;  // report once
   }
   return faults;

@@ -38,7 +38,8 @@ struct TimedPose {
 
 /// A fault of one of several poses.
 struct TimedFault {
-  size_t pose = 0;  ///< the pose's index
+  size_t pose = 0;      ///< the pose's index
+  bool on_way = false;  ///< on the way from the pose before, rather than over several poses
   std::string message;
 };
 

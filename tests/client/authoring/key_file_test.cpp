@@ -464,6 +464,15 @@ TEST_F(MotionKeysTest, KeysOfADanceAreTooCloseInTheWordsOfTheirFile) {
       "at frame 60");
 }
 
+// The last pose is in the air for too long, whatever the first one's name says.
+TEST(KeyFileTest, AKeyHasNoFaultsOfOthersWithSimilarNames) {
+  const Skeleton& body = Skeleton::Smpl24();
+  Pose jump = RestPose(body);
+  jump.root_position.y() += 0.4;
+  const client::KeyPose key{.id = "b", .time_s = 1.5, .pose = jump};
+  EXPECT_TRUE(KeyFaults(key, 30, body, {{"from \"b\"", 1, jump}, {"c", 2.2, jump}}).empty());
+}
+
 TEST(KeyFileTest, AJumpWithoutAPlaceIsWarnedOf) {
   const Skeleton& body = Skeleton::Smpl24();
   const auto faults = [&](const std::string& key) {
