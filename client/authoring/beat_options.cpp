@@ -6,10 +6,10 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <iostream>
 #include <map>
 #include <sstream>
 
+#include "client/authoring/notes.h"
 #include "model/audio/format.h"
 #include "model/core/error.h"
 #include "model/core/printable.h"
@@ -135,7 +135,7 @@ void WarnOfTempo(std::span<const Onset> onsets, double asked_bpm, double found_b
   if (!followed)
     warning += (warning.empty() ? " is not found; beats are taken at " : "; they are taken at ") +
                whole(taken_bpm) + " a minute";
-  if (!warning.empty()) std::cerr << "warning: --tempo " + InFull(asked_bpm) + warning + '\n';
+  if (!warning.empty()) Note("warning: --tempo " + InFull(asked_bpm) + warning);
 }
 
 /// Beats from a frame before the song's part to its first beat, at the tempo of its first beats.
@@ -150,9 +150,9 @@ int64_t BeatsSince(const BeatTrack& track, int64_t frame) {
 /// Warns of a downbeat, in seconds of the song, where there is no beat.
 void WarnOfDownbeat(double downbeat_s, double nearest_s, double tempo_bpm) {
   if (tempo_bpm <= 0 || std::abs(downbeat_s - nearest_s) <= 60 / tempo_bpm) return;
-  std::cerr << "warning: --downbeat " + InFull(downbeat_s) +
-                   " is more than a beat away from any beat; the nearest, at " +
-                   Rounded(nearest_s) + " s, begins a bar\n";
+  Note("warning: --downbeat " + InFull(downbeat_s) +
+       " is more than a beat away from any beat; the nearest, at " + Rounded(nearest_s) +
+       " s, begins a bar");
 }
 
 void Change(const BeatOptions& options, double start, BeatTrack* track) {

@@ -26,9 +26,10 @@ struct BeatOptions {
 /// Throws Error(kInvalidArgument) for beat options without a song.
 void RequireSong(const BeatOptions& options, const std::string& song);
 
-/// Finds or reads, depending on the options, a song's beats from second `start` on. Warns on
-/// standard error if the requested tempo is not found in the song. Throws Error(kInvalidArgument)
-/// whose field is "beats", "downbeat" or a line of the file. `mono` as in TrackBeats.
+/// Finds or reads, depending on the options, a song's beats from second `start` on. Warns,
+/// by the sink (notes.h), if the requested tempo is not found in the song. Throws
+/// Error(kInvalidArgument) whose field is "beats", "downbeat" or a line of the file. `mono` as in
+/// TrackBeats.
 BeatTrack BeatsAsAsked(std::span<const Onset> onsets, double start, const BeatOptions& options,
                        std::span<const float> mono = {});
 

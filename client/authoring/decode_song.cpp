@@ -7,11 +7,11 @@
 #include <unistd.h>
 
 #include <fstream>
-#include <iostream>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "client/authoring/notes.h"
 #include "model/core/error.h"
 #include "model/core/printable.h"
 
@@ -142,8 +142,7 @@ DecodedAudio DecodeSong(const std::filesystem::path& path, double seconds, doubl
     audio = DecodeByFfmpeg(path, seconds, start, more);
     if (!audio) throw;
   }
-  for (const std::string& note : audio->notes)
-    std::cerr << "note: " << path.string() << ": " << note << '\n';
+  for (const std::string& note : audio->notes) Note("note: " + path.string() + ": " + note);
   return *std::move(audio);
 }
 

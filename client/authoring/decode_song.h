@@ -7,8 +7,8 @@
 namespace choreo::authoring {
 
 /// Decodes a song of any format: with DecodeAudioFile or, if it does not support the format and
-/// ffmpeg is installed, with ffmpeg. Throws as DecodeAudioFile does. Writes notes to standard
-/// error.
+/// ffmpeg is installed, with ffmpeg. Throws as DecodeAudioFile does. Notes go to the sink
+/// (notes.h), too.
 DecodedAudio DecodeSong(const std::filesystem::path& path, double seconds, double start,
                         double more = 0);
 

@@ -1,10 +1,11 @@
 #include "client/authoring/motion_input.h"
 
-#include <iostream>
 #include <mutex>
 #include <set>
 #include <string>
 #include <vector>
+
+#include "client/authoring/notes.h"
 
 namespace choreo::authoring {
 namespace {
@@ -20,7 +21,7 @@ void Say(const std::filesystem::path& path, const std::vector<std::string>& note
     const size_t option =
         of_convert ? std::string::npos : line.find(" --", line.size() - note.size());
     if (option != std::string::npos) line.insert(option, " choreo convert");
-    if (shown.insert(line).second) std::cerr << line << '\n';
+    if (shown.insert(line).second) Note(line);
   }
 }
 

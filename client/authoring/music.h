@@ -27,7 +27,7 @@ struct Music {
 
 /// Decodes a song from second `start` on: all of it, or `seconds` and `more` (DecodeSong). Throws
 /// as DecodeSong does, and Error(kInvalidArgument) whose field is "song_start" for a start after
-/// the song's end. Writes notes to standard error.
+/// the song's end. Notes go to the sink (notes.h), too.
 DecodedAudio ReadSong(const std::filesystem::path& path, double seconds, double start,
                       double more = 0);
 

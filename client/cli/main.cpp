@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "client/authoring/notes.h"
 #include "client/cli/commands.h"
 #include "client/cli/interruption.h"
 #include "client/cli/misspelling.h"
@@ -40,6 +41,7 @@ int Fail(const std::exception& error) {
 int main(int argc, char** argv) {
   // We report errors ourselves; gRPC logs only on request.
   if (std::getenv("GRPC_VERBOSITY") == nullptr) gpr_set_log_function([](gpr_log_func_args*) {});
+  choreo::authoring::SetNoteSink([](const std::string& line) { std::cerr << line + '\n'; });
   CLI::App program{"choreo makes people dance: a song and key poses in, SMPL motion out.",
                    "choreo"};
   program.set_version_flag("--version", CHOREO_VERSION);

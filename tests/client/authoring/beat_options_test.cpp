@@ -5,10 +5,12 @@
 
 #include <cmath>
 #include <fstream>
+#include <functional>
 #include <numbers>
 #include <string>
 
 #include "client/authoring/music.h"
+#include "client/authoring/notes.h"
 #include "client/authoring/project_file.h"
 #include "model/audio/format.h"
 #include "tests/support/expect_error.h"
@@ -34,6 +36,15 @@ class MusicBeats : public testing::Test {
 
   TemporaryFolder folder_;
 };
+
+/// The lines that `work` passes to the program's sink.
+std::string Noted(const std::function<void()>& work) {
+  std::string noted;
+  SetNoteSink([&](const std::string& line) { noted += line; });
+  work();
+  SetNoteSink({});
+  return noted;
+}
 
 testing::Matcher<double> Near(double seconds) {
   return DoubleNear(seconds, 0.5 * kOnsetHop / kModelSampleRate);
@@ -201,22 +212,18 @@ TEST_F(MusicBeats, ATempoThatTheMusicDoesNotHaveIsWarnedOf) {
     for (size_t k = i; k < std::min(i + 45, onsets.size()); ++k) onsets[k].loud_db = -10;
   }
   const auto said = [&](double tempo) {
-    testing::internal::CaptureStderr();
-    BeatsAsAsked(onsets, 0, {.hint = {.tempo_bpm = tempo}});
-    return testing::internal::GetCapturedStderr();
+    return Noted([&] { BeatsAsAsked(onsets, 0, {.hint = {.tempo_bpm = tempo}}); });
   };
   EXPECT_THAT(said(97),
               testing::StartsWith("warning: --tempo 97 is far from the tempo heard, 120 "));
   for (const double tempo : {120.0, 123.0, 60.0, 80.0, 180.0}) EXPECT_EQ(said(tempo), "") << tempo;
   // It might be two thirds of the music's, but nothing is found so near to it.
-  EXPECT_EQ(said(170), "warning: --tempo 170 is not found; beats are taken at 160 a minute\n");
+  EXPECT_EQ(said(170), "warning: --tempo 170 is not found; beats are taken at 160 a minute");
 }
 
 TEST_F(MusicBeats, ADownbeatFarFromAnyBeatIsWarnedOf) {
   const auto said = [&](double downbeat) {
-    testing::internal::CaptureStderr();
-    Read("1\n1.5\n2\n2.5\n", {.downbeat_s = downbeat}, 0.5);
-    return testing::internal::GetCapturedStderr();
+    return Noted([&] { Read("1\n1.5\n2\n2.5\n", {.downbeat_s = downbeat}, 0.5); });
   };
   EXPECT_THAT(said(8), testing::StartsWith("warning: --downbeat 8 is more than a beat away from "
                                            "any beat; the nearest, at 2.5 s, begins a bar"));
