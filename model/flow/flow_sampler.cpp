@@ -251,7 +251,8 @@ Slices<Plan> ContinuousFlowSampler::Begin(const ValidSpec& valid) {
     const double error = in_rounds ? CorrectEnergy(parts_->skeleton, spec.history.back(), poses,
                                                    wanted, more, energy)
                                    : 0;
-    if (error < least) {
+    // The first one counts even with an infinite error: ProcessPlan says which frame it is.
+    if (plan.poses.empty() || error < least) {
       least = error;
       plan.poses = std::move(poses);
     }

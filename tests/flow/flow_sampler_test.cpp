@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <memory>
 #include <numbers>
 
 #include "model/flow/window_energy.h"
@@ -377,6 +379,34 @@ TEST(FlowSampler, FreeWindowsThatEndWhereNobodyDancesAreSampledAgain) {
   const Sinking network(parts.config.steps);
   EXPECT_LT(usual.Deviation(sample(network)), 7);
   EXPECT_EQ(network.evaluations, 2 * parts.config.steps);
+}
+
+// Puts one frame infinitely far away.
+class Diverging : public Silent {
+ public:
+  Eigen::MatrixXf Evaluate(const Eigen::MatrixXf& z, const Eigen::MatrixXf&, const Eigen::MatrixXf&,
+                           const Eigen::MatrixXf&, const Eigen::MatrixXf&,
+                           const Eigen::VectorXf&) const override {
+    Eigen::MatrixXf f = Eigen::MatrixXf::Zero(z.rows(), z.cols());
+    f(0, 15) = std::numeric_limits<float>::infinity();
+    return f;
+  }
+};
+
+// So that the check of plans says which frame is not finite.
+TEST(FlowSampler, APlanThatMissesItsEnergyInfinitelyHasPoses) {
+  const auto parts = std::make_shared<const FlowModelParts>(Parts());
+  ModelInfo model;
+  model.skeleton = parts->skeleton;
+  model.history_frames = kTau;
+  model.controls = ControlNames();
+  TransitionSpec spec;
+  spec.frames = 30;
+  spec.history = MakeScene(30).request.history;
+  spec.temperature = 1;
+  spec.controls[kVelocityFactors].values.setConstant(kBodyParts, spec.frames, 0.05F);
+  ContinuousFlowSampler sampler(model, "cpu", parts, std::make_shared<const Diverging>());
+  EXPECT_EQ(sampler.Begin(ValidSpec(spec, model)).Finish().poses.size(), 30U);
 }
 
 // Throws an arm about in its first window, and in no other.
