@@ -11,6 +11,7 @@
 #include "proto/wire/continuation_message.h"
 #include "proto/wire/control_messages.h"
 #include "proto/wire/convert.h"
+#include "proto/wire/field_path.h"
 #include "proto/wire/poses.h"
 
 namespace choreo {
@@ -99,7 +100,7 @@ ValidDance ToDanceConfig(const v1::DanceConfig& message, const ModelInfo& model,
     CheckMusic(message.audio_format());
     config.audio = SamplesOf(message.audio_format());
   }
-  return {std::move(config), model};
+  return wire::WithPaths([&] { return ValidDance(std::move(config), model); });
 }
 
 ValidGroup ToGroupRequest(const v1::GenerateTransitionRequest& message, const ModelInfo& model,
@@ -171,7 +172,7 @@ ValidGroup ToGroupRequest(const v1::GenerateTransitionRequest& message, const Mo
   } else if (message.has_audio()) {
     throw WithoutAudioFormat("audio");
   }
-  return {std::move(request), model};
+  return wire::WithPaths([&] { return ValidGroup(std::move(request), model); });
 }
 
 Error WithoutAudioFormat(const std::string& field) {

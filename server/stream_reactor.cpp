@@ -14,6 +14,7 @@
 #include "model/dance/dance_stream.h"
 #include "proto/wire/continuation_message.h"
 #include "proto/wire/convert.h"
+#include "proto/wire/field_path.h"
 #include "proto/wire/poses.h"
 #include "server/call_session.h"
 #include "server/message_error.h"
@@ -69,7 +70,7 @@ class DanceSession final : public CallSession<DanceResponse, DanceStream>,
       const auto stream = dance();
       if (!stream) return;
       DecodeFile(*stream);
-      stream->HalfClose();
+      wire::WithPaths([&] { stream->HalfClose(); });
     });
   }
 
@@ -138,22 +139,25 @@ class DanceSession final : public CallSession<DanceResponse, DanceStream>,
         return Number(request, request.remove_keyframe().id(),
                       [&] { RemoveKeyframe(*stream, request.remove_keyframe().id()); });
       case DanceRequest::kControls:
-        return Number(request, "",
-                      [&] { stream->SetControls(ToControls(request.controls(), "controls")); });
+        return Number(request, "", [&] {
+          const ControlRequest controls = ToControls(request.controls(), "controls");
+          wire::WithPaths([&] { stream->SetControls(controls); });
+        });
       case DanceRequest::kMusicBeats:
         return Number(request, "", [&] { GiveBeats(*stream, request.music_beats()); });
       case DanceRequest::kMusicPassages:
         return Number(request, "", [&] {
-          stream->GivePassages(wire::ToPassages(request.music_passages().passages()));
+          const auto passages = wire::ToPassages(request.music_passages().passages());
+          wire::WithPaths([&] { stream->GivePassages(passages); });
         });
       case DanceRequest::kGenerateUntil:
-        return stream->GenerateUntil(request.generate_until().frame());
+        return wire::WithPaths([&] { stream->GenerateUntil(request.generate_until().frame()); });
       case DanceRequest::kKeyframesComplete:
-        return stream->KeysComplete();
+        return wire::WithPaths([&] { stream->KeysComplete(); });
       case DanceRequest::kEndOfAudio:
         if (!audio_) throw WithoutAudioFormat("end_of_audio");
         DecodeFile(*stream);
-        return stream->EndOfAudio();
+        return wire::WithPaths([&] { stream->EndOfAudio(); });
       case DanceRequest::kConfig:
       case DanceRequest::REQUEST_NOT_SET:
         return;  // handled before the switch
@@ -189,7 +193,8 @@ class DanceSession final : public CallSession<DanceResponse, DanceStream>,
     rejects_keys_ = message.reject_invalid_keys();
     if (message.has_audio_format()) audio_ = message.audio_format();
     SendHeader(model, message, *config, config->FirstFrame());
-    Adopt(std::make_shared<DanceStream>(*queue_, config, shared_from_this()));
+    Adopt(wire::WithPaths(
+        [&] { return std::make_shared<DanceStream>(*queue_, config, shared_from_this()); }));
   }
 
   // A client sends the whole file, even when it resumes a dance.
@@ -200,8 +205,8 @@ class DanceSession final : public CallSession<DanceResponse, DanceStream>,
     if (!SendsFile()) {
       const bool floats = audio_->encoding() == v1::AUDIO_ENCODING_PCM_F32LE;
       const auto channels = static_cast<int>(audio_->channels());
-      stream.PushAudio(ReadPcm(audio.data(), floats, channels, "audio.data"), audio.first_sample());
-      return;
+      const auto samples = ReadPcm(audio.data(), floats, channels, "audio.data");
+      return wire::WithPaths([&] { stream.PushAudio(samples, audio.first_sample()); });
     }
     if (file_decoded_) {
       throw Error(ErrorCode::kFailedPrecondition, "audio", "comes after end_of_audio");
@@ -222,20 +227,23 @@ class DanceSession final : public CallSession<DanceResponse, DanceStream>,
     file_.Clear();
     if (!music.notes.empty()) stream.NoteMusicDamaged(music.notes, music.seconds());
     stream.SetMusic(music.Analyse(music_beats_));
-    stream.PushAudio(music.mono, 0);
+    wire::WithPaths([&] { stream.PushAudio(music.mono, 0); });
   }
 
   static void GiveBeats(DanceStream& stream, const v1::MusicBeats& beats) {
-    stream.GiveBeats({beats.times().begin(), beats.times().end()},
-                     {beats.downbeats().begin(), beats.downbeats().end()},
-                     beats.has_confidence() ? std::optional(beats.confidence()) : std::nullopt);
+    wire::WithPaths([&] {
+      stream.GiveBeats({beats.times().begin(), beats.times().end()},
+                       {beats.downbeats().begin(), beats.downbeats().end()},
+                       beats.has_confidence() ? std::optional(beats.confidence()) : std::nullopt);
+    });
   }
 
   void TakeKeyframe(DanceStream& stream, const v1::Keyframe& keyframe) {
     std::optional<KeyMoment> when;
     try {
       when = wire::ToMoment(keyframe, "keyframe");
-      stream.SetKey(wire::ToKey(keyframe, queue_->model().skeleton, "keyframe"), *when);
+      const Key key = wire::ToKey(keyframe, queue_->model().skeleton, "keyframe");
+      wire::WithPaths([&] { stream.SetKey(key, *when); });
     } catch (const Error& error) {
       if (error.code() != ErrorCode::kInvalidArgument) throw;
       Reject(stream, keyframe.id(), when, error);
@@ -244,7 +252,7 @@ class DanceSession final : public CallSession<DanceResponse, DanceStream>,
 
   void RemoveKeyframe(DanceStream& stream, const std::string& id) {
     try {
-      stream.RemoveKey(id);
+      wire::WithPaths([&] { stream.RemoveKey(id); });
     } catch (const Error& error) {
       if (error.code() != ErrorCode::kNotFound) throw;
       Reject(stream, id, std::nullopt, error);

@@ -11,6 +11,7 @@
 #include "model/dance/transition_group.h"
 #include "proto/wire/continuation_message.h"
 #include "proto/wire/convert.h"
+#include "proto/wire/field_path.h"
 #include "server/call_session.h"
 #include "server/music_file.h"
 #include "server/read_message.h"
@@ -119,7 +120,9 @@ class TransitionSession final : public CallSession<v1::GenerateTransitionRespons
 
     SendHeader(model, message.config(), *request, request->FirstFrame());
     if (music_damaged_) OnWarning(*music_damaged_);
-    Adopt(std::make_shared<TransitionGroup>(*queue_, std::move(request), shared_from_this()));
+    Adopt(wire::WithPaths([&] {
+      return std::make_shared<TransitionGroup>(*queue_, std::move(request), shared_from_this());
+    }));
   }
 
   // Written before the group exists. Nothing refers to the message, which may be freed before the

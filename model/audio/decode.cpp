@@ -92,7 +92,8 @@ class LimitedReader {
   /// Reads like SoundReader; `is_kept`: whether these samples count towards the limits.
   int64_t Read(std::span<float> interleaved, bool is_kept) {
     const int64_t got = reader_->Read(interleaved);
-    CheckLevels(interleaved.first(static_cast<size_t>(got * channels())), channels(), read_, name_);
+    CheckLevels(interleaved.first(static_cast<size_t>(got * channels())), channels(), read_,
+                name_ + ".data");
     read_ += got;
     if (is_kept) kept_ += got;
     CheckAmount();

@@ -73,13 +73,12 @@ void CheckLevels(std::span<const float> interleaved, int channels, int64_t first
     if (std::abs(level) <= kMaxLevel) continue;
     const int64_t sample = first_sample + static_cast<int64_t>(i) / channels;
     throw InvalidArgument(
-        name + ".data",
-        "sample " + std::to_string(sample) + " of channel " +
-            std::to_string(i % static_cast<size_t>(channels)) + " is " +
-            (std::isfinite(level)
-                 ? InFull(level) + ", full scale is -1 to 1, the limit " + Rounded(kMaxLevel) +
-                       ": divide samples that were 16-bit integers by 32768"
-                 : std::to_string(level) + ", not a finite number"));
+        name, "sample " + std::to_string(sample) + " of channel " +
+                  std::to_string(i % static_cast<size_t>(channels)) + " is " +
+                  (std::isfinite(level) ? InFull(level) + ", full scale is -1 to 1, the limit " +
+                                              Rounded(kMaxLevel) +
+                                              ": divide samples that were 16-bit integers by 32768"
+                                        : std::to_string(level) + ", not a finite number"));
   }
 }
 

@@ -47,9 +47,9 @@ inline constexpr float kMaxLevel = 100;
 /// The smallest audible sample: a step of 16-bit integers.
 inline constexpr float kMinLevel = 1.0F / 32768;
 
-/// Throws Error(kInvalidArgument) if an interleaved sample is NaN, infinite or beyond kMaxLevel,
-/// naming its index. `first_sample` is the absolute index of the first sample (one per set of
-/// channels).
+/// Throws Error(kInvalidArgument, NAME) if an interleaved sample is NaN, infinite or beyond
+/// kMaxLevel; the message names its index. `first_sample` is the absolute index of the first sample
+/// (one per set of channels).
 void CheckLevels(std::span<const float> interleaved, int channels, int64_t first_sample,
                  const std::string& name = "audio");
 

@@ -228,10 +228,10 @@ Resampler::Resampler(double sample_rate, int channels, int64_t first_sample)
   CheckAudioFormat(sample_rate, channels);
   const int64_t rate = static_cast<int64_t>(sample_rate);
   if (first_sample < 0 || first_sample > kMaxAudioSeconds * rate) {
-    throw InvalidArgument("audio.first_sample",
-                          std::to_string(first_sample) + " is not within 0 to " +
-                              std::to_string(kMaxAudioSeconds * rate) + ", which is " +
-                              std::to_string(kMaxAudioSeconds) + " s");
+    throw InvalidArgument("first_sample", std::to_string(first_sample) + " is not within 0 to " +
+                                              std::to_string(kMaxAudioSeconds * rate) +
+                                              ", which is " + std::to_string(kMaxAudioSeconds) +
+                                              " s");
   }
   if (rate == kModelSampleRate) {
     first_output_ = first_sample;

@@ -28,7 +28,7 @@ enum class Remedy {
 };
 
 /// The only exception type of this project. `field()` is the path of the offending value in the
-/// sender's terms, such as "keyframes[3].rotations[16]", or empty. `what()` names the field, the
+/// caller's terms, such as "keyframes[3].rotations[16]", or empty. `what()` names the field, the
 /// value and the limit.
 class Error : public std::runtime_error {
  public:

@@ -61,11 +61,11 @@ Eigen::VectorXf HearSilence(const Hearing& hearing) {
 
 void CheckSamples(std::span<const float> interleaved, int channels, int64_t first_sample) {
   if (interleaved.size() % static_cast<size_t>(channels) != 0) {
-    throw InvalidArgument("audio.data", std::to_string(interleaved.size()) +
-                                            " values are not a multiple of the " +
-                                            std::to_string(channels) + " channels");
+    throw InvalidArgument("samples", std::to_string(interleaved.size()) +
+                                         " values are not a multiple of the " +
+                                         std::to_string(channels) + " channels");
   }
-  CheckLevels(interleaved, channels, first_sample);
+  CheckLevels(interleaved, channels, first_sample, "samples");
 }
 
 AudioFeed::AudioFeed(double sample_rate, int channels, int64_t first_sample, Hearing hearing)
@@ -83,11 +83,11 @@ AudioFeed::AudioFeed(double sample_rate, int channels, int64_t first_sample, Hea
 void AudioFeed::Push(std::span<const float> interleaved, int64_t first_sample,
                      const std::function<void()>& on_rows) {
   if (features_.finished()) {
-    throw Error(ErrorCode::kFailedPrecondition, "audio", "comes after end_of_audio");
+    throw Error(ErrorCode::kFailedPrecondition, "push_audio", "comes after end_of_audio");
   }
   const int64_t expected = features_.next_sample();
   if (first_sample != expected) {
-    throw Error(ErrorCode::kOutOfRange, "audio.first_sample",
+    throw Error(ErrorCode::kOutOfRange, "first_sample",
                 std::to_string(first_sample) +
                     (first_sample > expected ? " leaves a gap" : " overlaps") +
                     ": the sample expected is " + std::to_string(expected));
@@ -96,7 +96,7 @@ void AudioFeed::Push(std::span<const float> interleaved, int64_t first_sample,
   const size_t channels = static_cast<size_t>(channels_);
   const int64_t end = expected + static_cast<int64_t>(interleaved.size() / channels);
   if (static_cast<double>(end) > kMaxAudioSeconds * sample_rate_) {
-    throw InvalidArgument("audio.data",
+    throw InvalidArgument("samples",
                           "ends at " + std::to_string(static_cast<double>(end) / sample_rate_) +
                               " s, the limit is " + std::to_string(kMaxAudioSeconds) + " s");
   }

@@ -15,7 +15,7 @@
 
 namespace choreo {
 
-/// Throws Error(kInvalidArgument, "audio.data") unless the data is whole sample frames of finite
+/// Throws Error(kInvalidArgument, "samples") unless the data is whole sample frames of finite
 /// numbers. The message counts positions from `first_sample`.
 void CheckSamples(std::span<const float> interleaved, int channels, int64_t first_sample);
 

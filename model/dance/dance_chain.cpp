@@ -119,14 +119,14 @@ void DanceChain::Apply(const std::function<DanceEvents(DanceScore&)>& change) {
 
 void DanceChain::PushAudio(std::span<const float> interleaved, int64_t first_sample) {
   std::lock_guard lock(pushing_);
-  AudioFeed& audio = Audio("audio");
+  AudioFeed& audio = Audio("push_audio");
   if (!over()) audio.Push(interleaved, first_sample, [this] { Continue(); });
 }
 
 void DanceChain::FinishAudio() {
   AudioFeed& audio = Audio("end_of_audio");
   if (audio.finished()) throw Error(ErrorCode::kFailedPrecondition, "end_of_audio", "came before");
-  if (audio.next_sample() == 0) throw InvalidArgument("audio", "ended without a sample");
+  if (audio.next_sample() == 0) throw InvalidArgument("push_audio", "ended without a sample");
   // Sets the end of the music before rows after it can be danced.
   Apply(&DanceScore::EndOfAudio);
   audio.Finish();

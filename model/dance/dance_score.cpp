@@ -31,10 +31,10 @@ DanceScore::DanceScore(const ModelInfo& model, const ValidDance& config, const A
 }
 
 DanceEvents DanceScore::SetKey(const Key& key, const KeyMoment& when) {
-  CheckKeyPose(model_.skeleton, key.pose, "keyframe.pose");
-  ValidateMask(model_.skeleton, key.mask, "keyframe.mask");
-  ValidateHit(key.hit, "keyframe.hit");
-  if (const auto rejection = timeline_.Set(key, when, "keyframe"))
+  CheckKeyPose(model_.skeleton, key.pose, "key.pose");
+  ValidateMask(model_.skeleton, key.mask, "key.mask");
+  ValidateHit(key.hit, "key.hit");
+  if (const auto rejection = timeline_.Set(key, when, "key"))
     return {AnswerLate(*rejection, key.hands)};
   return KeysBehindMusic(&key.id);
 }
@@ -47,7 +47,7 @@ DanceEvents DanceScore::RejectKey(const std::string& id, const std::optional<Key
 }
 
 DanceEvents DanceScore::RemoveKey(const std::string& id) {
-  if (const auto rejection = timeline_.Remove(id, "remove_keyframe")) return {*rejection};
+  if (const auto rejection = timeline_.Remove(id, "removed_key")) return {*rejection};
   return {};
 }
 
@@ -73,11 +73,11 @@ DanceEvents DanceScore::SetControls(const ControlRequest& request) {
 DanceEvents DanceScore::GiveBeats(const std::vector<double>& seconds,
                                   const std::vector<double>& downbeats,
                                   std::optional<double> confidence) {
-  const std::string field = "music_beats.times";
+  const std::string field = "beats";
   if (seconds.empty()) throw InvalidArgument(field, "empty");
   CheckBeats(seconds, field);
-  CheckDownbeats(downbeats, seconds, "music_beats.downbeats");
-  if (confidence) ValidateShare(*confidence, "music_beats.confidence");
+  CheckDownbeats(downbeats, seconds, "downbeats");
+  if (confidence) ValidateShare(*confidence, "confidence");
   const int64_t from = timeline_.Frontier(field);
   const int64_t late = music_.GiveBeats(seconds, from, field, downbeats, confidence);
   if (late == 0) return {};
@@ -85,7 +85,7 @@ DanceEvents DanceScore::GiveBeats(const std::vector<double>& seconds,
 }
 
 DanceEvents DanceScore::GivePassages(const std::vector<Passage>& passages) {
-  const std::string field = "music_passages.passages";
+  const std::string field = "passages";
   if (passages.empty()) throw InvalidArgument(field, "empty");
   CheckPassages(passages, field);
   recurrence_.Give(passages, timeline_.Frontier(field), field);

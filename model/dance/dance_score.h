@@ -33,8 +33,8 @@ class DanceScore {
   DanceScore(const ModelInfo& model, const ValidDance& config, const AudioFeed* audio);
 
   // The functions below apply messages, which DanceStream documents. Each returns the events for
-  // the sink. A function that throws changes nothing; its error's field is the path in the API's
-  // message, such as "keyframe.mask".
+  // the sink. A function that throws changes nothing; its error names parameters and their members,
+  // such as "key.mask".
   DanceEvents SetKey(const Key& key, const KeyMoment& when);
   DanceEvents RejectKey(const std::string& id, const std::optional<KeyMoment>& when,
                         const std::string& field, const std::string& reason);

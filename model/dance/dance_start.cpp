@@ -20,7 +20,7 @@ namespace choreo {
 namespace {
 
 void CheckStyle(const ModelInfo& model, const std::string& style) {
-  const std::string field = "config.style";
+  const std::string field = "style";
   if (style.empty() || std::ranges::find(model.styles, style) != model.styles.end()) return;
   if (style.size() > kMaxIdLength) {
     throw InvalidArgument(field, "has " + std::to_string(style.size()) + " bytes, at most " +
@@ -32,7 +32,7 @@ void CheckStyle(const ModelInfo& model, const std::string& style) {
 
 void ValidateAudioStart(const ModelInfo& model, const DanceStart::Audio& audio,
                         int64_t first_frame) {
-  const std::string field = "config.audio_format";
+  const std::string field = "audio";
   if (!model.takes_music) {
     throw Error(ErrorCode::kUnimplemented, field, "this model does not take music");
   }
@@ -48,29 +48,28 @@ void ValidateAudioStart(const ModelInfo& model, const DanceStart::Audio& audio,
 
 // Throws what the constructors of ValidDance and ValidGroup throw.
 void CheckStart(const DanceStart& start, const ModelInfo& model) {
-  if (start.temperature) ValidateTemperature(*start.temperature, "config.temperature");
-  ValidateShare(start.Dynamics(), "config.music_dynamics");
-  ValidateShare(start.Variation(), "config.variation");
-  CheckBeats(start.music_beats, "config.music_beats");
-  CheckDownbeats(start.music_downbeats, start.music_beats, "config.music_downbeats");
-  CheckPassages(start.music_passages, "config.music_passages");
+  if (start.temperature) ValidateTemperature(*start.temperature, "temperature");
+  ValidateShare(start.Dynamics(), "music_dynamics");
+  ValidateShare(start.Variation(), "variation");
+  CheckBeats(start.music_beats, "music_beats");
+  CheckDownbeats(start.music_downbeats, start.music_beats, "music_downbeats");
+  CheckPassages(start.music_passages, "music_passages");
   if (start.music_passages.size() > kMaxPassages) {
-    throw InvalidArgument("config.music_passages", std::to_string(start.music_passages.size()) +
-                                                       " passages, the limit is " +
-                                                       std::to_string(kMaxPassages));
+    throw InvalidArgument("music_passages", std::to_string(start.music_passages.size()) +
+                                                " passages, the limit is " +
+                                                std::to_string(kMaxPassages));
   }
-  CheckEnergies(start.music_energies, "config.music_energies");
+  CheckEnergies(start.music_energies, "music_energies");
   CheckStyle(model, start.style);
-  ValidateOutputFps(start.output_fps, "config.frame_rate");
-  CheckHistory(model.skeleton, start.history, "config.history.poses");
+  ValidateOutputFps(start.output_fps, "output_fps");
+  CheckHistory(model.skeleton, start.history, "history");
   if (!start.continuation) {
-    CheckedIn(start.first_frame, 0, kMaxDanceFrames, "config.history.first_frame");
+    CheckedIn(start.first_frame, 0, kMaxDanceFrames, "first_frame");
     return;
   }
   if (!start.history.empty())
-    throw InvalidArgument("config.history", "and a continuation exclude each other");
-  ValidateContinuation(model, *start.continuation, start.allow_inexact_resume,
-                       "config.continuation");
+    throw InvalidArgument("before", "a history and a continuation exclude each other");
+  ValidateContinuation(model, *start.continuation, start.allow_inexact_resume, "continuation");
 }
 
 }  // namespace
@@ -88,14 +87,14 @@ ValidDance::ValidDance(DanceConfig request, const ModelInfo& model) : Valid(std:
   CheckStart(config, model);
   const int64_t first = config.FirstFrame();
   if (config.end_frame)
-    CheckedIn(*config.end_frame, std::max<int64_t>(first, 1), kMaxDanceFrames, "config.frames");
+    CheckedIn(*config.end_frame, std::max<int64_t>(first, 1), kMaxDanceFrames, "end_frame");
   if (config.generate_until)
-    CheckedIn(*config.generate_until, 0, kMaxDanceFrames, "config.generate_until");
+    CheckedIn(*config.generate_until, 0, kMaxDanceFrames, "generate_until");
   if (config.audio) {
     ValidateAudioStart(model, *config.audio, first);
     if (config.continuation && config.continuation->audio_from_sample &&
         config.audio->first_sample > *config.continuation->audio_from_sample) {
-      throw Error(ErrorCode::kOutOfRange, "config.audio_format.first_sample",
+      throw Error(ErrorCode::kOutOfRange, "audio.first_sample",
                   std::to_string(config.audio->first_sample) + " is after " +
                       std::to_string(*config.continuation->audio_from_sample) +
                       ", the first that the continuation needs");
@@ -116,13 +115,13 @@ ValidGroup::ValidGroup(GroupRequest group, const ModelInfo& model) : Valid(std::
                                          "\" has no likelihood; RANK_BY_QUALITY is possible");
   CheckedIn(request.frames, 1, std::min(kMaxTransitionFrames, model.max_transition_frames),
             "frames");
-  CheckedIn(request.FirstFrame(), 0, kMaxDanceFrames, "config.continuation.frame");
+  CheckedIn(request.FirstFrame(), 0, kMaxDanceFrames, "continuation.frame");
   if (request.target) {
     CheckKeyPose(model.skeleton, request.target->pose, "target");
-    ValidateMask(model.skeleton, request.target->mask, "target_mask");
+    ValidateMask(model.skeleton, request.target->mask, "target.mask");
   }
   ValidateKeyId(request.target_id, "target_id");
-  ValidateHit(request.hit, "target_hit");
+  ValidateHit(request.hit, "hit");
   if (request.after) {
     if (!request.target) throw InvalidArgument("after", "needs a target");
     CheckKeyPose(model.skeleton, *request.after, "after");
@@ -130,7 +129,7 @@ ValidGroup::ValidGroup(GroupRequest group, const ModelInfo& model) : Valid(std::
   ValidateControls(request.controls, model, "controls");
   if (!request.audio) {
     if (!request.samples.empty())
-      throw InvalidArgument("audio", "comes without config.audio_format");
+      throw InvalidArgument("samples", "comes without GroupRequest::audio");
     return;
   }
   ValidateAudioStart(model, *request.audio, request.FirstFrame());

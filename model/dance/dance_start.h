@@ -81,15 +81,15 @@ class ValidDance : public Valid<DanceConfig> {
  public:
   /// Throws Error(kInvalidArgument) for invalid values, Error(kFailedPrecondition) for a
   /// continuation of another fingerprint, Error(kOutOfRange) for audio that begins too late, and
-  /// Error(kUnimplemented) for music that the model cannot use. Fields are named as in the API:
-  /// "config.history.poses[0]". Keeps only the poses of the history that the model uses.
+  /// Error(kUnimplemented) for music that the model cannot use. Errors name members: "history[0]",
+  /// "before" for Before(). Keeps only the poses of the history that the model uses.
   ValidDance(DanceConfig request, const ModelInfo& model);
 };
 
 /// A single transition checked against its model.
 class ValidGroup : public Valid<GroupRequest> {
  public:
-  /// Throws what ValidDance throws, also for fields of the request: "target.rotations[3]".
+  /// Throws what ValidDance throws, and the same for the other members: "target.rotations[3]".
   ValidGroup(GroupRequest group, const ModelInfo& model);
 
   /// Adds the music of a decoded file: mono samples, and what is known of them, unless the request

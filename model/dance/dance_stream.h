@@ -18,10 +18,10 @@ namespace choreo {
 /// except rejected ones, continues bit for bit. Its audio starts at ResumeSample. Frames after the
 /// continuation are sent again.
 ///
-/// A message that throws leaves the stream unchanged. Its error's field is the path in the API's
-/// message, such as "keyframe.pose.rotations[16]". Messages after the sink's last call are ignored.
-/// Thread-safe. The destructor cancels the dance. The queue must outlive the sink's last call and
-/// all jobs.
+/// A message that throws leaves the stream unchanged. Its error names a parameter, a member of one
+/// ("key.pose.rotations[16]") or the function ("keys_complete"). Messages after the sink's last
+/// call are ignored. Thread-safe. The destructor cancels the dance. The queue must outlive the
+/// sink's last call and all jobs.
 class DanceStream {
  public:
   /// `config`: must have been checked against the queue's model.

@@ -28,9 +28,9 @@ double FiniteSeconds(double seconds, const std::string& field) {
   return seconds;
 }
 
-/// The field of a keyframe message that states its moment, for errors.
+/// The path of a moment, for errors.
 std::string PathOf(const KeyMoment& when, const std::string& field) {
-  static constexpr const char* kMembers[] = {".frame", ".time", ".interval_after_previous"};
+  static constexpr const char* kMembers[] = {".at_frame", ".at_time", ".after_previous"};
   return field + kMembers[when.index()];
 }
 
@@ -201,9 +201,8 @@ void Timeline::NoteChange(int64_t first, int64_t last) {
 
 void Timeline::GenerateUntil(int64_t frame) {
   if (frame < granted_ || frame > kMaxDanceFrames) {
-    throw InvalidArgument("generate_until.frame",
-                          Frames(frame) + " is not in [" + Frames(granted_) + ", " +
-                              Frames(kMaxDanceFrames) + "]: it may only grow");
+    throw InvalidArgument("until", Frames(frame) + " is not in [" + Frames(granted_) + ", " +
+                                       Frames(kMaxDanceFrames) + "]: it may only grow");
   }
   granted_ = frame;
   // Everything is granted. While the music's end is unknown, the last transition cannot be planned.
@@ -213,10 +212,10 @@ void Timeline::GenerateUntil(int64_t frame) {
 }
 
 void Timeline::Complete() {
-  CheckOpen("keyframes_complete");
+  CheckOpen("keys_complete");
   const bool has_end = options_.end_frame || options_.has_music;
   if (!has_end && keys_.empty() && rejected_.empty() && frontier_ <= options_.first_frame) {
-    throw InvalidArgument("keyframes_complete",
+    throw InvalidArgument("keys_complete",
                           "the dance has no end: no keyframe, no music and no config.frames");
   }
   complete_ = true;

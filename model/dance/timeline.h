@@ -63,11 +63,11 @@ class Timeline {
   };
   explicit Timeline(Options options);
 
-  /// Adds a key at `when`, or replaces the one with its id. `field`: the sender's path for errors,
-  /// as in "keyframes[3]". Returns a rejection if the key, or the replaced one, is in frozen
-  /// frames. Throws Error(kInvalidArgument) for an empty id, a moment out of range, a frame taken
-  /// by another id, a frame closer than kMinKeyDistance to another key, more than kMaxKeys keys,
-  /// and after Complete. The pose and `hit` must be valid (validation.h).
+  /// Adds a key at `when`, or replaces the one with its id. `field`: the caller's name for the key,
+  /// for errors, as in "keyframes[3]". Returns a rejection if the key, or the replaced one, is in
+  /// frozen frames. Throws Error(kInvalidArgument) for an empty id, a moment out of range, a frame
+  /// taken by another id, a frame closer than kMinKeyDistance to another key, more than kMaxKeys
+  /// keys, and after Complete. The pose and `hit` must be valid (validation.h).
   std::optional<KeyRejected> Set(Key key, const KeyMoment& when, const std::string& field);
 
   /// Rejects an unusable key, and changes nothing. `when`: none if the message has no moment.

@@ -182,6 +182,7 @@ TEST(ResamplerTest, RefusesFormatsBeyondTheLimits) {
     return "accepted";
   };
   using ::testing::HasSubstr;
+  using ::testing::StartsWith;
   EXPECT_EQ(refusal(8000, 1, 0), "accepted");
   EXPECT_EQ(refusal(192000, 8, 0), "accepted");
   for (const double rate : {7999.0, 192001.0, 0.0, -44100.0, 44100.5, std::nan("")}) {
@@ -189,7 +190,7 @@ TEST(ResamplerTest, RefusesFormatsBeyondTheLimits) {
   }
   EXPECT_THAT(refusal(44100, 0, 0), AllOf(HasSubstr("audio.channels: 0"), HasSubstr("1 to 8")));
   EXPECT_THAT(refusal(44100, 9, 0), HasSubstr("audio.channels: 9"));
-  EXPECT_THAT(refusal(44100, 1, -1), HasSubstr("audio.first_sample: -1"));
+  EXPECT_THAT(refusal(44100, 1, -1), StartsWith("first_sample: -1"));
   EXPECT_EQ(refusal(44100, 1, 44100 * 600), "accepted");
   EXPECT_THAT(refusal(44100, 1, 44100 * 600 + 1), HasSubstr("0 to 26460000"));
 }

@@ -81,7 +81,7 @@ TEST(AudioFeedTest, RefusesPartialFramesAndNonFiniteSamples) {
       FAIL() << bad;
     } catch (const Error& error) {
       EXPECT_EQ(error.code(), ErrorCode::kInvalidArgument);
-      EXPECT_EQ(error.field(), "audio.data");
+      EXPECT_EQ(error.field(), "samples");
       EXPECT_NE(std::string(error.what()).find("sample 14321 of channel 1"), std::string::npos);
     }
   }

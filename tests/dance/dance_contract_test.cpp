@@ -42,7 +42,7 @@ TEST_F(DanceContract, AudioGapsAndOverlapsNameTheSampleExpected) {
           stream.PushAudio(samples, next);
         },
         ErrorCode::kOutOfRange, true);
-    EXPECT_THAT(refusal, ::testing::StartsWith("audio.first_sample: " + std::to_string(next)));
+    EXPECT_THAT(refusal, ::testing::StartsWith("first_sample: " + std::to_string(next)));
     EXPECT_THAT(refusal, ::testing::EndsWith("the sample expected is 1000"));
   }
 }
@@ -57,18 +57,18 @@ TEST_F(DanceContract, AudioThatIsNoAudioIsRefused) {
   samples.pop_back();
   EXPECT_THAT(Refusal([&](DanceStream& stream) { stream.PushAudio(samples, 0); },
                       ErrorCode::kInvalidArgument, true),
-              ::testing::HasSubstr("audio.data: 1999 values"));
+              ::testing::HasSubstr("samples: 1999 values"));
   EXPECT_EQ(
       Refusal([](DanceStream& stream) { stream.EndOfAudio(); }, ErrorCode::kInvalidArgument, true),
-      "audio: ended without a sample");
+      "push_audio: ended without a sample");
   EXPECT_EQ(
       Refusal([](DanceStream& stream) { stream.HalfClose(); }, ErrorCode::kInvalidArgument, true),
-      "audio: ended without a sample");
+      "push_audio: ended without a sample");
   EXPECT_EQ(Refusal([&](DanceStream& stream) { stream.PushAudio(samples, 0); },
                     ErrorCode::kInvalidArgument),
-            "audio: comes without config.audio_format");
+            "push_audio: comes without DanceConfig::audio");
   EXPECT_EQ(Refusal([](DanceStream& stream) { stream.EndOfAudio(); }, ErrorCode::kInvalidArgument),
-            "end_of_audio: comes without config.audio_format");
+            "end_of_audio: comes without DanceConfig::audio");
 }
 
 TEST_F(DanceContract, AudioBeyondTheLimitOrTheEndIsRefused) {
@@ -89,7 +89,7 @@ TEST_F(DanceContract, AudioBeyondTheLimitOrTheEndIsRefused) {
                   stream.PushAudio(ten_seconds, 220500);
                 },
                 ErrorCode::kFailedPrecondition, true),
-            "audio: comes after end_of_audio");
+            "push_audio: comes after end_of_audio");
   EXPECT_EQ(Refusal(
                 [&](DanceStream& stream) {
                   stream.PushAudio(ten_seconds, 0);
@@ -108,16 +108,16 @@ TEST_F(DanceContract, ErrorsNameTheFieldByItsPath) {
                   stream.SetKey({.id = "3", .pose = bad}, AtFrame{100});
                 },
                 ErrorCode::kInvalidArgument),
-            "keyframe.pose.rotations[16]: 7.9 rad exceeds 2π");
+            "key.pose.rotations[16]: 7.9 rad exceeds 2π");
   EXPECT_EQ(Refusal([](DanceStream& stream) { stream.RemoveKey("none"); }, ErrorCode::kNotFound),
-            "remove_keyframe.id: there is no key \"none\"");
+            "removed_key.id: there is no key \"none\"");
 }
 
 TEST_F(DanceContract, ADanceNeedsAnEnd) {
   for (auto close : {&DanceStream::KeysComplete, &DanceStream::HalfClose}) {
     EXPECT_EQ(
         Refusal([close](DanceStream& stream) { (stream.*close)(); }, ErrorCode::kInvalidArgument),
-        "keyframes_complete: the dance has no end: no keyframe, no music and no config.frames");
+        "keys_complete: the dance has no end: no keyframe, no music and no config.frames");
   }
 }
 

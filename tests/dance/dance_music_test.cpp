@@ -220,20 +220,17 @@ TEST(MusicBeats, AreBoundedAndComeBeforeTheKeysAreComplete) {
   const auto queue = FakeQueue();
   DanceStream stream(*queue, Checked(*queue, LiveDance(46, 1).config),
                      std::make_shared<Recorder>());
-  ExpectError(ErrorCode::kInvalidArgument, "music_beats.times: empty",
-              [&] { stream.GiveBeats({}); });
-  ExpectError(ErrorCode::kInvalidArgument, "music_beats.times[1]", [&] {
-    stream.GiveBeats({2, 1});
-  });
-  ExpectError(ErrorCode::kInvalidArgument, "music_beats.downbeats[0]", [&] {
+  ExpectError(ErrorCode::kInvalidArgument, "beats: empty", [&] { stream.GiveBeats({}); });
+  ExpectError(ErrorCode::kInvalidArgument, "beats[1]", [&] { stream.GiveBeats({2, 1}); });
+  ExpectError(ErrorCode::kInvalidArgument, "downbeats[0]", [&] {
     stream.GiveBeats({1, 2}, {1.5});
   });
   std::vector<double> many;
   for (size_t i = 0; i < kMaxBeats; ++i) many.push_back(0.05 * static_cast<double>(i));
   stream.GiveBeats(many);
-  ExpectError(ErrorCode::kInvalidArgument, "music_beats.times", [&] { stream.GiveBeats({1}); });
+  ExpectError(ErrorCode::kInvalidArgument, "beats", [&] { stream.GiveBeats({1}); });
   stream.KeysComplete();
-  ExpectError(ErrorCode::kInvalidArgument, "music_beats.times", [&] { stream.GiveBeats({1}); });
+  ExpectError(ErrorCode::kInvalidArgument, "beats", [&] { stream.GiveBeats({1}); });
 }
 
 // At any tempo, and for any division into transitions, also partly danced ones, and on boundaries.

@@ -173,7 +173,7 @@ TEST(Resume, RefusesAnotherFingerprintUnlessAllowed) {
     FAIL() << "accepted";
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ErrorCode::kFailedPrecondition);
-    EXPECT_EQ(error.field(), "config.continuation.fingerprint");
+    EXPECT_EQ(error.field(), "continuation.fingerprint");
   }
   Dance allowed = dance;
   allowed.config.allow_inexact_resume = true;
@@ -218,7 +218,7 @@ TEST(Resume, RefusesReachedKeysThatCannotBe) {
     }
     return std::string("accepted");
   };
-  const std::string field = "config.continuation.reached";
+  const std::string field = "continuation.reached";
   EXPECT_EQ(refused([](auto&) {}), "accepted");
   EXPECT_EQ(refused([](auto& keys) { keys.resize(kMaxKeys + 1); }), field);
   EXPECT_EQ(refused([](auto& keys) { keys[1].id = ""; }), field + "[1].id");

@@ -102,8 +102,7 @@ TEST(Timeline, GrantsAfterTheLastKeyChangeNothing) {
   timeline.Complete();
   timeline.GenerateUntil(0);
   timeline.GenerateUntil(500);
-  EXPECT_THAT(Refusal([&] { timeline.GenerateUntil(499); }),
-              HasSubstr("generate_until.frame: 499"));
+  EXPECT_THAT(Refusal([&] { timeline.GenerateUntil(499); }), HasSubstr("until: 499"));
   timeline.SetAudioEnd(100);
   EXPECT_EQ(Drain(timeline), (std::vector<Span>{{0, 60, ""}, {60, 120, ""}}));
   EXPECT_EQ(timeline.End(), 100);
@@ -180,7 +179,7 @@ TEST(Timeline, RefusesImpossibleKeys) {
   timeline.GenerateUntil(0);
   Set(timeline, "a", AtFrame{30});
   EXPECT_THAT(Refusal([&] { Set(timeline, "b", AtFrame{30}); }),
-              HasSubstr("keyframes[0].frame: frame 30 is already that of key \"a\""));
+              HasSubstr("keyframes[0].at_frame: frame 30 is already that of key \"a\""));
   EXPECT_THAT(Refusal([&] { Set(timeline, "b", AtFrame{31}); }), HasSubstr("closer than 2 frames"));
   EXPECT_THAT(Refusal([&] { Set(timeline, "b", AtFrame{29}); }), HasSubstr("closer than 2 frames"));
   EXPECT_THAT(Refusal([&] { Set(timeline, "", AtFrame{50}); }), HasSubstr("keyframes[0].id"));
@@ -192,21 +191,22 @@ TEST(Timeline, RefusesImpossibleKeys) {
   EXPECT_THAT(Refusal([&] { Set(timeline, "b", AtTime{1e300}); }), HasSubstr("1e+300"));
   for (const int64_t frames : {INT64_MIN, int64_t{1}, int64_t{108'001}, INT64_MAX}) {
     EXPECT_THAT(Refusal([&] { Set(timeline, "b", AfterPrevious{frames}); }),
-                HasSubstr("keyframes[0].interval_after_previous: " + std::to_string(frames) +
+                HasSubstr("keyframes[0].after_previous: " + std::to_string(frames) +
                           " is not in [2, 108000]"));
   }
-  EXPECT_THAT(Refusal([&] { Set(timeline, "b", AfterPrevious{107'971}); }),  // a stands at 30
-              HasSubstr("interval_after_previous: leads to frame 108001, beyond the limit 108000"));
+  EXPECT_THAT(
+      Refusal([&] { Set(timeline, "b", AfterPrevious{107'971}); }),  // a stands at 30
+      HasSubstr("keyframes[0].after_previous: leads to frame 108001, beyond the limit 108000"));
   EXPECT_THAT(Refusal([&] { timeline.Remove("b", "remove_keyframes[0]"); }, ErrorCode::kNotFound),
               HasSubstr("remove_keyframes[0].id: there is no key \"b\""));
   timeline.GenerateUntil(20);
-  EXPECT_THAT(Refusal([&] { timeline.GenerateUntil(19); }), HasSubstr("generate_until.frame: 19"));
+  EXPECT_THAT(Refusal([&] { timeline.GenerateUntil(19); }), HasSubstr("until: 19"));
   EXPECT_THAT(Refusal([&] { timeline.GenerateUntil(1LL << 60); }), HasSubstr("108000"));
   // A key may move next to its own former place.
   EXPECT_EQ(Set(timeline, "a", AtFrame{31}), std::nullopt);
   timeline.Complete();
   EXPECT_THAT(Refusal([&] { Set(timeline, "b", AtFrame{60}); }), HasSubstr("keyframes_complete"));
-  EXPECT_THAT(Refusal([&] { timeline.Complete(); }), HasSubstr("keyframes_complete"));
+  EXPECT_THAT(Refusal([&] { timeline.Complete(); }), HasSubstr("keys_complete"));
 }
 
 TEST(Timeline, HoldsAThousandKeys) {

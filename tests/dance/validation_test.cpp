@@ -77,70 +77,68 @@ TEST(Validation, ConfigsNameFieldValueAndLimit) {
   const Continuation good{60, std::vector<Pose>(10, rest), "fake-1"};
   EXPECT_EQ(refusal([](DanceConfig&) {}), "accepted");
   EXPECT_EQ(refusal([](DanceConfig& c) { c.temperature = -0.1; }),
-            "config.temperature: -0.1 is not in [0, 2]");
+            "temperature: -0.1 is not in [0, 2]");
   EXPECT_EQ(refusal([](DanceConfig& c) { c.temperature = std::nanf(""); }),
-            "config.temperature: nan is not in [0, 2]");
+            "temperature: nan is not in [0, 2]");
   EXPECT_EQ(refusal([](DanceConfig& c) { c.music_dynamics = 1.5; }),
-            "config.music_dynamics: 1.5 is not in [0, 1]");
+            "music_dynamics: 1.5 is not in [0, 1]");
   EXPECT_EQ(refusal([](DanceConfig& c) { c.music_dynamics = std::nan(""); }),
-            "config.music_dynamics: nan is not in [0, 1]");
+            "music_dynamics: nan is not in [0, 1]");
   const std::vector<double> beats = {0.5, 1};
   EXPECT_EQ(refusal([&](DanceConfig& c) { c.music_beats = c.music_downbeats = beats; }),
             "accepted");
   EXPECT_EQ(refusal([](DanceConfig& c) {
               c.music_beats = {1, 1};
             }),
-            "config.music_beats[1]: 1 s is not after the beat before it, 1 s");
+            "music_beats[1]: 1 s is not after the beat before it, 1 s");
   EXPECT_EQ(refusal([](DanceConfig& c) {
               c.music_energies = {0, std::nanf("")};
             }),
-            "config.music_energies[1]: nan is not in [-2, 2]");
+            "music_energies[1]: nan is not in [-2, 2]");
   EXPECT_EQ(refusal([](DanceConfig& c) { c.music_energies.resize(1201); }),
-            "config.music_energies: 1201 energies, the limit is 1200");
+            "music_energies: 1201 energies, the limit is 1200");
   EXPECT_EQ(refusal([](DanceConfig& c) { c.music_beats = {std::nan("")}; }),
-            "config.music_beats[0]: nan s is not within 0 to 600");
+            "music_beats[0]: nan s is not within 0 to 600");
   EXPECT_EQ(refusal([](DanceConfig& c) { c.music_beats = {600.5}; }),
-            "config.music_beats[0]: 600.5 s is not within 0 to 600");
+            "music_beats[0]: 600.5 s is not within 0 to 600");
   EXPECT_THAT(refusal([](DanceConfig& c) { c.music_beats.resize(kMaxBeats + 1); }),
               ::testing::HasSubstr("12001 beats, the limit is 12000"));
   EXPECT_EQ(refusal([&](DanceConfig& c) { c.music_beats = beats, c.music_downbeats = {0.75}; }),
-            "config.music_downbeats[0]: 0.75 s is not one of the beats");
+            "music_downbeats[0]: 0.75 s is not one of the beats");
   EXPECT_EQ(refusal([](DanceConfig& c) { c.style = "calm"; }), "accepted");
   EXPECT_EQ(refusal([](DanceConfig& c) { c.style = "Calm"; }),
-            "config.style: \"Calm\" is not a style of the model fake; did you mean calm?");
-  EXPECT_EQ(refusal([](DanceConfig& c) { c.output_fps = 0; }),
-            "config.frame_rate: 0 is not in [1, 120]");
+            "style: \"Calm\" is not a style of the model fake; did you mean calm?");
+  EXPECT_EQ(refusal([](DanceConfig& c) { c.output_fps = 0; }), "output_fps: 0 is not in [1, 120]");
   EXPECT_EQ(refusal([](DanceConfig& c) { c.output_fps = 121; }),
-            "config.frame_rate: 121 is not in [1, 120]");
+            "output_fps: 121 is not in [1, 120]");
   EXPECT_EQ(refusal([&](DanceConfig& c) { c.history.assign(11, rest); }), "accepted");
   EXPECT_EQ(refusal([&](DanceConfig& c) {
               c.history.assign(2, rest);
               c.history[1].rotations = Eigen::Matrix3Xd::Zero(3, 23);
             }),
-            "config.history.poses[1].rotations: 23 joints, the model has 24");
+            "history[1].rotations: 23 joints, the model has 24");
   EXPECT_EQ(refusal([&](DanceConfig& c) { c.continuation = good; }), "accepted");
   EXPECT_EQ(refusal([&](DanceConfig& c) {
               c.continuation = good;
               c.history.assign(1, rest);
             }),
-            "config.history: and a continuation exclude each other");
+            "before: a history and a continuation exclude each other");
   EXPECT_EQ(refusal([&](DanceConfig& c) {
               c.continuation = good;
               c.continuation->poses.pop_back();
             }),
-            "config.continuation.poses: 9 poses, the model needs 10");
+            "continuation.poses: 9 poses, the model needs 10");
   EXPECT_EQ(refusal([&](DanceConfig& c) {
               c.continuation = good;
               c.continuation->frame = -1;
             }),
-            "config.continuation.frame: -1 is not in [0, 108001]");
-  EXPECT_EQ(refusal([](DanceConfig& c) { c.end_frame = 0; }),
-            "config.frames: 0 is not in [1, 108000]");
+            "continuation.frame: -1 is not in [0, 108001]");
+  EXPECT_EQ(refusal([](DanceConfig& c) { c.end_frame = 0; }), "end_frame: 0 is not in [1, 108000]");
   EXPECT_EQ(refusal([&](DanceConfig& c) {
               c.continuation = good;
               c.end_frame = 59;
             }),
-            "config.frames: 59 is not in [60, 108000]");
+            "end_frame: 59 is not in [60, 108000]");
   EXPECT_NE(refusal([](DanceConfig& c) { c.audio = DanceConfig::Audio{4000, 1, 0}; }), "accepted");
   EXPECT_NE(refusal([](DanceConfig& c) { c.audio = DanceConfig::Audio{44100, 9, 0}; }), "accepted");
   EXPECT_NE(refusal(
@@ -158,10 +156,10 @@ TEST(Validation, TransitionsNameTheFieldTheirFirstFrameCameFrom) {
   request.frames = 10;
   request.first_frame = kMaxDanceFrames + 1;
   const auto refusal = [&] { return Refusal([&] { ValidGroup(request, sampler.model()); }); };
-  EXPECT_EQ(refusal(), "config.history.first_frame: 108001 is not in [0, 108000]");
+  EXPECT_EQ(refusal(), "first_frame: 108001 is not in [0, 108000]");
   request.continuation = Continuation{
       kMaxDanceFrames + 1, std::vector<Pose>(10, RestPose(Skeleton::Smpl24())), "fake-1"};
-  EXPECT_EQ(refusal(), "config.continuation.frame: 108001 is not in [0, 108000]");
+  EXPECT_EQ(refusal(), "continuation.frame: 108001 is not in [0, 108000]");
 }
 
 }  // namespace choreo::validation_test

@@ -7,6 +7,7 @@
 #include "model/motion/kinematics.h"
 #include "model/motion/velocity_factors.h"
 #include "proto/wire/continuation_message.h"
+#include "proto/wire/field_path.h"
 #include "proto/wire/poses.h"
 #include "tests/support/expect_error.h"
 
@@ -174,6 +175,79 @@ TEST(Wire, CodesOfLaterVersionsAreUnknown) {
   EXPECT_EQ(std::get<KeyRejected>(*wire::FromProto(event)).code, KeyRejected::Code::kInvalid);
   event.mutable_beat()->set_source(v1::BeatSource_MAX);
   EXPECT_EQ(std::get<Beat>(*wire::FromProto(event)).source, Beat::Source::kHeard);
+}
+
+/// Whether a message of this type has a field with this path.
+bool HasPath(const google::protobuf::Descriptor* type, const std::string& path) {
+  const size_t dot = path.find('.');
+  const FieldDescriptor* field = type->FindFieldByName(path.substr(0, dot));
+  if (field == nullptr || dot == std::string::npos) return field != nullptr;
+  return field->message_type() != nullptr && HasPath(field->message_type(), path.substr(dot + 1));
+}
+
+TEST(Wire, FieldsOfTheModelHavePathsInTheApi) {
+  for (const char* field : {"after",
+                            "audio",
+                            "audio.channels",
+                            "audio.first_sample",
+                            "audio.sample_rate",
+                            "beats",
+                            "before",
+                            "candidates",
+                            "confidence",
+                            "continuation.frame",
+                            "controls",
+                            "downbeats",
+                            "end_frame",
+                            "end_of_audio",
+                            "first_frame",
+                            "first_sample",
+                            "frames",
+                            "generate_until",
+                            "history",
+                            "hit",
+                            "key.after_previous",
+                            "key.at_frame",
+                            "key.at_time",
+                            "key.hit",
+                            "key.id",
+                            "key.mask.joints",
+                            "key.pose.rotations",
+                            "keys_complete",
+                            "music_beats",
+                            "music_downbeats",
+                            "music_dynamics",
+                            "music_energies",
+                            "music_passages",
+                            "output_fps",
+                            "passages",
+                            "push_audio",
+                            "rank_by",
+                            "removed_key.id",
+                            "samples",
+                            "style",
+                            "target",
+                            "target.mask.joints",
+                            "target_id",
+                            "temperature",
+                            "until",
+                            "variation"}) {
+    const std::string path = wire::PathOf(field);
+    EXPECT_TRUE(HasPath(v1::StreamDanceRequest::descriptor(), path) ||
+                HasPath(v1::GenerateTransitionRequest::descriptor(), path))
+        << field << " -> " << path;
+  }
+}
+
+TEST(Wire, ErrorsNameTheFieldAsSent) {
+  EXPECT_EQ(wire::PathOf("history[1].rotations"), "config.history.poses[1].rotations");
+  EXPECT_EQ(wire::PathOf("audio.first_sample"), "config.audio_format.first_sample");
+  EXPECT_EQ(wire::PathOf("key.at_time"), "keyframe.time");
+  EXPECT_EQ(wire::PathOf("keyframe.pose"), "keyframe.pose") << "begins like key";
+  EXPECT_EQ(wire::PathOf(""), "");
+  ExpectError(ErrorCode::kOutOfRange, "config.frames: 7 is too long", [] {
+    wire::WithPaths([] { throw Error(ErrorCode::kOutOfRange, "end_frame", "7 is too long"); });
+  });
 }
 
 }  // namespace choreo::wire_test

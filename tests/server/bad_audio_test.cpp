@@ -41,6 +41,18 @@ INSTANTIATE_TEST_SUITE_P(
          "config.audio_format.first_sample",
          {"5000", "0"},
          grpc::StatusCode::OUT_OF_RANGE},
+        {"StartAfterTheLongestMusic",
+         [](const KeyMessage& key) {
+           v1::StreamDanceRequest config = MusicConfigRequest();
+           v1::History* history = config.mutable_config()->mutable_history();
+           history->set_first_frame(30 * 800);
+           *history->add_poses() = key.keyframe().pose();
+           v1::AudioFormat* format = config.mutable_config()->mutable_audio_format();
+           format->set_first_sample(int64_t{700} * format->sample_rate());
+           return Requests{config};
+         },
+         "audio.first_sample",
+         {"600 s"}},
         {"NaN",
          PieceWith([](std::string& data) {
            const float nan = std::numeric_limits<float>::quiet_NaN();

@@ -1,0 +1,62 @@
+#include "proto/wire/field_path.h"
+
+#include <array>
+#include <utility>
+
+namespace choreo::wire {
+namespace {
+
+// What the model's errors call a value, and its path in StreamDanceRequest or
+// GenerateTransitionRequest. The first row that begins a field applies, so longer rows come first.
+// Names that are the path already ("target_id", "controls") need no row.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 32> kPaths = {{
+    // DanceConfig and GroupRequest
+    {"audio", "config.audio_format"},
+    {"before", "config.history"},
+    {"continuation", "config.continuation"},
+    {"end_frame", "config.frames"},
+    {"first_frame", "config.history.first_frame"},
+    {"generate_until", "config.generate_until"},
+    {"history", "config.history.poses"},
+    {"hit", "target_hit"},
+    {"music_beats", "config.music_beats"},
+    {"music_downbeats", "config.music_downbeats"},
+    {"music_dynamics", "config.music_dynamics"},
+    {"music_energies", "config.music_energies"},
+    {"music_passages", "config.music_passages"},
+    {"output_fps", "config.frame_rate"},
+    {"samples", "audio.data"},
+    {"style", "config.style"},
+    {"target.mask", "target_mask"},
+    {"temperature", "config.temperature"},
+    {"variation", "config.variation"},
+    // DanceStream
+    {"beats", "music_beats.times"},
+    {"confidence", "music_beats.confidence"},
+    {"downbeats", "music_beats.downbeats"},
+    {"first_sample", "audio.first_sample"},
+    {"keys_complete", "keyframes_complete"},
+    {"passages", "music_passages.passages"},
+    {"push_audio", "audio"},
+    {"removed_key", "remove_keyframe"},
+    {"until", "generate_until.frame"},
+    // Key and KeyMoment
+    {"key.at_frame", "keyframe.frame"},
+    {"key.at_time", "keyframe.time"},
+    {"key.after_previous", "keyframe.interval_after_previous"},
+    {"key", "keyframe"},
+}};
+
+}  // namespace
+
+std::string PathOf(std::string_view field) {
+  for (const auto& [own, sent] : kPaths) {
+    if (!field.starts_with(own)) continue;
+    const std::string_view rest = field.substr(own.size());
+    if (rest.empty() || rest.front() == '.' || rest.front() == '[')
+      return std::string(sent).append(rest);
+  }
+  return std::string(field);
+}
+
+}  // namespace choreo::wire
