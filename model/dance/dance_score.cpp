@@ -13,6 +13,11 @@ namespace {
 
 const std::vector<Passage> kNoPassages;
 
+// Whether nothing is known of the music before it sounds.
+bool IsUnknown(const KnownMusic& music) {
+  return music.music_beats.empty() && music.music_energies.empty() && music.music_passages.empty();
+}
+
 }  // namespace
 
 DanceScore::DanceScore(const ModelInfo& model, const ValidDance& config, const AudioFeed* audio)
@@ -28,6 +33,12 @@ DanceScore::DanceScore(const ModelInfo& model, const ValidDance& config, const A
       recurs_(config->Variation() < 1) {
   if (config->continuation) reached_before_ = config->continuation->reached;
   if (!recurrence_.empty()) timeline_.SetCuts(CutsOf(config->music_passages, model.fps));
+  if (audio != nullptr && recurs_ && IsUnknown(*config)) {
+    timeline_.SetCutRule([this](int64_t from) {
+      recurrence_.Begin(from);
+      return recurrence_.NextCut(from + kTypicalFrames / 2);
+    });
+  }
 }
 
 DanceEvents DanceScore::SetKey(const Key& key, const KeyMoment& when) {
@@ -127,6 +138,7 @@ DanceEvents DanceScore::KeysBehindMusic(const std::string* only) const {
 
 DanceEvents DanceScore::SetMusic(const MusicAnalysis& music) {
   music_.SetWhole(music);
+  timeline_.SetCutRule({});
   if (!recurrence_.empty() || music.passages.empty() || !recurs_) return {};
   recurrence_ = Recurrence(model_.fps, music.passages);
   timeline_.SetCuts(CutsOf(music.passages, model_.fps));

@@ -31,6 +31,8 @@ class DanceScore {
 
   /// `audio`: null for a dance without music. Model and audio must outlive this object.
   DanceScore(const ModelInfo& model, const ValidDance& config, const AudioFeed* audio);
+  DanceScore(const DanceScore&) = delete;
+  DanceScore& operator=(const DanceScore&) = delete;
 
   // The functions below apply messages, which DanceStream documents. Each returns the events for
   // the sink. A function that throws changes nothing; its error names parameters and their members,

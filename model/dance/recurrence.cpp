@@ -80,6 +80,13 @@ int64_t Recurrence::Origin(int64_t frame) const {
   return frame;
 }
 
+std::optional<int64_t> Recurrence::NextCut(int64_t least) const {
+  for (int64_t frame = least; frame <= least + kTypicalFrames; ++frame) {
+    if (Origin(frame) % kTypicalFrames == 0) return frame;
+  }
+  return std::nullopt;
+}
+
 std::vector<int64_t> Recurrence::Origins(int64_t from, int64_t to) const {
   std::vector<int64_t> origins;
   bool any = false;

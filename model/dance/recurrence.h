@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <deque>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -35,6 +36,10 @@ class Recurrence {
   void Begin(int64_t frame);
   /// The earliest frame that `frame`, in the current transition, repeats; `frame` itself if none.
   int64_t Origin(int64_t frame) const;
+  /// The first frame from `least` on, in the current transition, at which transitions should end so
+  /// that music is divided alike each time it sounds: its origin is a multiple of kTypicalFrames.
+  /// None if it lies farther than kTypicalFrames away, as where short repeats follow each other.
+  std::optional<int64_t> NextCut(int64_t least) const;
   /// The origins of the frames [from, to); empty if none repeats another.
   std::vector<int64_t> Origins(int64_t from, int64_t to) const;
 

@@ -227,6 +227,11 @@ void Timeline::SetCuts(std::vector<int64_t> frames) {
   planned_.clear();
 }
 
+void Timeline::SetCutRule(CutRule rule) {
+  cut_rule_ = std::move(rule);
+  planned_.clear();
+}
+
 void Timeline::SetAudioEnd(int64_t frame) { audio_end_ = frame; }
 
 std::vector<const Key*> Timeline::KeysBehindMusic() const {
@@ -262,6 +267,12 @@ std::optional<Key> Timeline::KeyFrom(int64_t frame) const {
   return key == keys_.end() ? std::nullopt : std::optional(key->second);
 }
 
+std::optional<int64_t> Timeline::CutAfter(int64_t frame, bool has_key) const {
+  if (cut_rule_ && !has_key) return cut_rule_(frame);
+  const auto cut = std::ranges::lower_bound(cuts_, frame + std::lround(kMinCut_s * options_.fps));
+  return cut == cuts_.end() ? std::nullopt : std::optional(*cut);
+}
+
 // Plans with the keys known when `known` was granted. Earlier keys have been frozen since then;
 // later ones have not.
 Segment Timeline::SegmentFrom(int64_t frame, const Granted& known) const {
@@ -273,10 +284,9 @@ Segment Timeline::SegmentFrom(int64_t frame, const Granted& known) const {
                              LongestToKey(options_.max_transition_frames, options_.sight_frames));
   const bool is_reached = next && *next + 1 == to;
   if (!is_reached) {
-    const auto cut = std::ranges::lower_bound(cuts_, frame + std::lround(kMinCut_s * options_.fps));
     // The remaining transition before the key is then at least half the typical length.
-    if (cut != cuts_.end() && *cut <= to + (to - frame) / 2 &&
-        *cut - frame <= options_.max_transition_frames)
+    const std::optional<int64_t> cut = CutAfter(frame, next.has_value());
+    if (cut && *cut <= to + (to - frame) / 2 && *cut - frame <= options_.max_transition_frames)
       to = *cut;
   }
   const bool is_seen = next && !is_reached && IsInSight(frame, *next, options_.sight_frames);

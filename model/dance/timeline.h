@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <limits>
 #include <map>
 #include <optional>
@@ -97,6 +98,11 @@ class Timeline {
   /// would end near such a frame ends on it, unless that makes it shorter than half a second. Call
   /// before any frame is danced.
   void SetCuts(std::vector<int64_t> frames);
+  /// Finds the frame at which a transition from `from` should end, if there is one. Sees `from`
+  /// ascend.
+  using CutRule = std::function<std::optional<int64_t>(int64_t from)>;
+  /// Sets `rule` instead, for transitions without any key ahead. Call before any frame is danced.
+  void SetCutRule(CutRule rule);
 
   /// Sets the music's end, just before `frame`.
   void SetAudioEnd(int64_t frame);
@@ -156,6 +162,7 @@ class Timeline {
   Segment SegmentFrom(int64_t frame, const Granted& known) const;
   std::deque<Granted>::const_iterator GrantBeyond(int64_t frame) const;
   void Settle(Plan* plan) const;
+  std::optional<int64_t> CutAfter(int64_t frame, bool has_key) const;
   bool PlanNext();
 
   Options options_;
@@ -170,6 +177,7 @@ class Timeline {
   bool complete_ = false;
   std::optional<int64_t> audio_end_;
   std::vector<int64_t> cuts_;
+  CutRule cut_rule_;
   std::deque<Granted> grants_;  // grants on which current and later transitions depend
   int64_t danced_to_;           // where the current transition begins
   std::deque<Plan> planned_;    // the first is the current one

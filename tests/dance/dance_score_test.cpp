@@ -52,6 +52,27 @@ TEST_F(DanceScoreTest, NothingFollowsTheEnd) {
   EXPECT_FALSE(score.TakeNext(1, 0));
 }
 
+// Keys and turns of the music shift transitions; a repeat is danced like its original only if both
+// are divided alike.
+TEST_F(DanceScoreTest, UnknownMusicIsDividedAlikeEachTimeItSounds) {
+  DanceConfig config;
+  config.audio = DanceConfig::Audio{22050, 1, 0};
+  AudioFeed feed(22050, 1, 0);
+  feed.Push(std::vector<float>(size_t{22050} * 30), 0, [] {});
+  DanceScore score = Score(config, &feed);
+  Set(&score, KeyAt("a", 99));
+  score.GivePassages({{10.5, 20, 2}});
+  score.GenerateUntil(640);
+  std::vector<int64_t> ends;
+  while (const auto next = score.TakeNext(0, feed.ready())) {
+    ends.push_back(next->inputs.segment.to);
+    score.Finish();
+  }
+  constexpr int64_t kLag = 255;
+  EXPECT_EQ(ends, (std::vector<int64_t>{100, 180, 240, 300, 120 + kLag, 180 + kLag, 240 + kLag,
+                                        300 + kLag, 600, 660}));
+}
+
 TEST_F(DanceScoreTest, ATransitionWaitsForItsMusic) {
   DanceConfig config;
   config.audio = DanceConfig::Audio{22050, 1, 0};

@@ -48,6 +48,25 @@ TEST(Recurrence, LaterPassagesApplyAfterTheFrozenFrames) {
   EXPECT_EQ(recurrence.Origin(600), 600) << "it ended there";
 }
 
+TEST(Recurrence, CutsOfARepeatLieWhereItsOriginalsLie) {
+  const std::vector<Passage> passages{{20.1, 30, 0}};
+  const Recurrence recurrence(30, passages);
+  EXPECT_EQ(recurrence.NextCut(60), 60);
+  EXPECT_EQ(recurrence.NextCut(61), 120);
+  EXPECT_EQ(recurrence.NextCut(601), 603) << "where the repeat begins";
+  EXPECT_EQ(recurrence.NextCut(604), 663);
+  EXPECT_EQ(recurrence.NextCut(870), 900) << "where it ends";
+}
+
+// Thousands of short repeats may follow each other.
+TEST(Recurrence, LooksForACutNoFartherThanTwoSeconds) {
+  const std::vector<Passage> passages{{10, 11, 0.5}, {11, 12, 0.5}, {12, 13, 0.5}};
+  const Recurrence recurrence(30, passages);
+  EXPECT_EQ(recurrence.NextCut(300), std::nullopt);
+  EXPECT_EQ(recurrence.NextCut(270), std::nullopt);
+  EXPECT_EQ(recurrence.NextCut(360), 420);
+}
+
 TEST(Recurrence, TakesAsManyAsAStreamMayGive) {
   Recurrence recurrence(30, {});
   const std::vector<Passage> one{{10, 20, 0}};

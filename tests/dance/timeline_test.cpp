@@ -85,6 +85,16 @@ TEST(Timeline, CutsDoNotSplitTransitionsToAKey) {
   EXPECT_EQ(Drain(timeline), (std::vector<Span>{{0, 41, "a"}}));
 }
 
+TEST(Timeline, ARuleReplacesCutsWhereNoKeyIsAhead) {
+  Timeline timeline({.end_frame = 150});
+  timeline.SetCuts({50, 100});
+  timeline.SetCutRule([](int64_t from) { return from + 45; });
+  EXPECT_EQ(Set(timeline, "a", AtFrame{30}), std::nullopt);
+  timeline.GenerateUntil(150);
+  EXPECT_EQ(Drain(timeline),
+            (std::vector<Span>{{0, 31, "a"}, {31, 76, ""}, {76, 121, ""}, {121, 166, ""}}));
+}
+
 TEST(Timeline, EachKeyGrantsUpToItself) {
   Timeline timeline({});
   EXPECT_EQ(Set(timeline, "a", AtFrame{30}), std::nullopt);
