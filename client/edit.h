@@ -18,8 +18,9 @@ namespace choreo::client {
 
 /// Seconds of music after a frame that its music features need, rounded up.
 inline constexpr double kMusicBeyond_s = 0.5;
-/// Seconds of music before the first frame that determine the frame's energy, as far as they fit
-/// into kMaxMusicBytes.
+/// Seconds of music before the first frame to which its energy is relative where the song's
+/// energies are unknown, as far as they fit into kMaxMusicBytes. Fewer than in a stream, because
+/// each edit sends them.
 inline constexpr double kMusicBefore_s = 35;
 inline constexpr double kMaxMusicBytes = 12 << 20;
 

@@ -16,15 +16,15 @@ struct MusicDynamicsOptions {
   double loud = 0.4, busy = 0.4, deep = 0.2;
   double silent = -1.6;  ///< energy of silence
 
-  /// A weight counts in full at `range` standard deviations above the mean of the last 30 s or, in
-  /// music that hardly changes, at the least_ values: dB, dB of onsets per row, dB.
+  /// A weight counts in full at `range` standard deviations above the mean of the last two minutes
+  /// or, in music that hardly changes, at the least_ values: dB, dB of onsets per row, dB.
   double range = 0.75;
   double least_loud = 2, least_busy = 0.35, least_deep = 3;
   /// A prior: as if `usual_seconds` of music with these onsets had preceded the song.
   double usual_onsets = 1.7, usual_seconds = 20;
 
-  /// Music below `silence` LUFS, or `far_below` LU below the loudest second of the last 30, is
-  /// silent. From `fade` LU above that on it counts fully.
+  /// Music below `silence` LUFS, or `far_below` LU below the loudest second of the last two
+  /// minutes, is silent. From `fade` LU above that on it counts fully.
   double silence = -65, far_below = 40, fade = 10;
 
   /// Music turns where it is louder or softer by `turn_loud` LU than in the second before a
@@ -40,8 +40,8 @@ struct MusicDynamicsOptions {
   int turn_step = 3, turn_after = 15, turn_before_key = 30;
 };
 
-/// Rows of memory: 30 s.
-inline constexpr int kDynamicsMemory = 900;
+/// Rows of memory: two minutes.
+inline constexpr int kDynamicsMemory = 3600;
 
 /// The energy of the last second of music, relative to the last kDynamicsMemory rows. `rows`: one
 /// per frame, oldest first, or as many as there are. 0 for less than a second. If the music has

@@ -168,7 +168,7 @@ TEST_P(DeterminismTest, ResumedDanceIsTheSame) {
   ASSERT_GE(whole.continuations.size(), 2U);
   const v1::Continuation& from = whole.continuations[0];
   EXPECT_EQ(from.frame(), 31);
-  EXPECT_EQ(from.audio_from_sample() > 0, !HearsAll());  // energy is that of half a minute
+  EXPECT_EQ(from.audio_from_sample() > 0, !HearsAll());  // energy looks back two minutes
 
   DanceClient client(stub());
   v1::DanceConfig config = MusicConfig(0);
