@@ -181,18 +181,14 @@ std::optional<bool> Tokens::Refresh() {
   seems_empty_ = is_empty;
   text_ = std::move(text);
   const bool all_good = content.bad_lines.empty();
-  // Emptying the file revokes all tokens. A file of bad lines is the wrong file or unfinished.
-  if (content.holders.empty() && !is_empty) {
-    spdlog::error("{}; the {} tokens known before stay valid", BadLines(content.bad_lines).what(),
-                  count());
+  // A file without a token is the wrong file or unfinished.
+  if (content.holders.empty()) {
+    const Error fault = is_empty ? NoTokens() : BadLines(content.bad_lines);
+    spdlog::error("{}; the {} tokens known before stay valid", fault.what(), count());
     return false;
   }
   if (!all_good) spdlog::error("{}; the other lines count", BadLines(content.bad_lines).what());
-  if (is_empty) {
-    spdlog::warn("{}; no call is accepted until it has one", NoTokens().what());
-  } else {
-    spdlog::info("{} tokens are known now", content.holders.size());
-  }
+  spdlog::info("{} tokens are known now", content.holders.size());
   Replace(std::move(content.holders));
   warned_ = false;
   return all_good;

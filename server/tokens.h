@@ -20,8 +20,7 @@ namespace choreo {
 /// hexadecimal digits as printed by sha256sum, of a token that the client sends as "authorization:
 /// Bearer TOKEN". Empty lines and lines that begin with # are ignored. Tokens themselves are
 /// neither stored nor logged. A token removed from the file gives no access, but if the file has
-/// only bad lines, its previous tokens stay valid. An empty or missing file admits nobody.
-/// Thread-safe.
+/// no good line, its previous tokens stay valid. A missing file admits nobody. Thread-safe.
 class Tokens {
  public:
   /// A token's SHA-256.
@@ -48,8 +47,8 @@ class Tokens {
   bool IsRevoked(const Hash& hash) const;
 
   /// Rereads the file; call regularly. Skips bad lines. Admits nobody while the file is unreadable.
-  /// A file of bad lines alone changes nothing. Logs each fault once. Returns whether a changed
-  /// file has no bad lines, or none without a change.
+  /// A file without a good line changes nothing. Logs each fault once. Returns whether a changed
+  /// file is without fault, or none without a change.
   std::optional<bool> Refresh();
 
  private:

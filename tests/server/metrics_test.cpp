@@ -342,6 +342,8 @@ TEST_F(MetricsTest, ShowFailedReloads) {
   std::ofstream(tokens) << good;
   ExpectEventually([&] { return figure("successful", "tokens") == 1; }, "it is good again");
   EXPECT_GT(figure("success_timestamp_seconds", "tokens"), begun);
+  std::ofstream(tokens).flush();
+  ExpectEventually([&] { return figure("successful", "tokens") == 0; }, "it is empty");
   server->NoteModelReload(false);
   EXPECT_EQ(figure("successful", "models"), 0);
   EXPECT_EQ(Figure("choreo_certificate_expiry_timestamp_seconds"), -1) << "there is none";
