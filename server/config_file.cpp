@@ -52,6 +52,10 @@ std::vector<CLI::ConfigItem> TomlFile::from_config(std::istream& input) const {
     const size_t line = error.source().begin.line;
     throw InvalidArgument(At(line), MissingMarks(text, line) + std::string(error.description()));
   }
+  // It may be unfinished, and all its settings would silently be the defaults.
+  if (table.empty())
+    throw InvalidArgument("--config", app_.get_config_ptr()->as<std::string>() +
+                                          " sets nothing; leave --config out for the defaults");
   std::vector<CLI::ConfigItem> settings;
   for (const auto& [key, node] : table) {
     CLI::ConfigItem item;

@@ -16,7 +16,7 @@ class TomlFile final : public CLI::Config {
   explicit TomlFile(const CLI::App& app) : app_(app) {}
 
   /// Throws Error(kInvalidArgument, "FILE:LINE") for invalid TOML and for values that no setting
-  /// can have.
+  /// can have, and Error(kInvalidArgument, "--config") for a file without any setting.
   std::vector<CLI::ConfigItem> from_config(std::istream& input) const override;
   std::string to_config(const CLI::App* /*app*/, bool /*defaults*/, bool /*describe*/,
                         std::string /*prefix*/) const override {

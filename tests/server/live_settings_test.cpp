@@ -57,4 +57,11 @@ TEST_F(LiveSettingsTest, ABadSettingIsNamedWithItsLine) {
               [&] { Read("workers = 1\nmax-streams = -1\n"); });
 }
 
+// A writer may have failed, or the disk was full.
+TEST_F(LiveSettingsTest, AFileThatSetsNothingIsRefused) {
+  for (const char* empty : {"", "\n", "# max-streams = 5\n"})
+    ExpectError(ErrorCode::kInvalidArgument, "--config: " + file + " sets nothing",
+                [&] { Read(empty); });
+}
+
 }  // namespace choreo::live_settings_test
