@@ -118,8 +118,7 @@ std::string InOurWords(const CLI::App& app, const TomlFile& file, const CLI::Par
   const std::string said = error.what();
   if (dynamic_cast<const CLI::ConversionError*>(&error)) return Unconverted(said);
   if (dynamic_cast<const CLI::ArgumentMismatch*>(&error)) return Miscounted(said);
-  if (dynamic_cast<const CLI::FileError*>(&error))
-    return "--config: no file " + said.substr(0, said.find(" was not readable"));
+  if (dynamic_cast<const CLI::FileError*>(&error)) return said;  // FaultOfFile's
   if (dynamic_cast<const CLI::ConfigError*>(&error)) {  // "INI was not able to parse KEY"
     const std::string key = said.substr(said.rfind(' ') + 1);
     // "check: This option is not allowed in a configuration file"

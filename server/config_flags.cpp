@@ -3,10 +3,21 @@
 #include <CLI/CLI.hpp>
 #include <cstdlib>
 
+#include "model/core/error.h"
 #include "model/engine/engine_choice.h"
+#include "tls/pem.h"
 
 namespace choreo {
 namespace {
+
+// CLI11 says of every unusable file that it is missing, and would wait for the writer of a FIFO.
+std::string FaultOfFile(const std::string& path) try {
+  constexpr size_t kMostBytes = 1 << 20;
+  if (!path.empty()) ReadSmallFile("--config", path, kMostBytes);
+  return "";
+} catch (const Error& error) {
+  throw CLI::FileError(error.what());  // yields to --help
+}
 
 void AddOptions(CLI::App& app, ServerConfig& config) {
   app.add_option("--listen", config.listen,
@@ -98,7 +109,8 @@ void AddOptions(CLI::App& app, ServerConfig& config) {
   const bool is_named = file != nullptr && *file != '\0';
   app.set_config("--config", is_named ? file : "",
                  "Read settings from this TOML file, as in: workers = 2", is_named)
-      ->envname("CHOREO_CONFIG");
+      ->envname("CHOREO_CONFIG")
+      ->check(FaultOfFile);
   app.allow_config_extras(CLI::config_extras_mode::error);
 }
 

@@ -2,9 +2,12 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
+#include <filesystem>
 #include <fstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "tests/support/expect_error.h"
@@ -21,6 +24,9 @@ class LiveSettingsTest : public testing::Test {
  protected:
   ServerConfig Read(const std::string& settings, std::vector<const char*> flags = {}) {
     std::ofstream(file) << settings;
+    return Reread(std::move(flags));
+  }
+  ServerConfig Reread(std::vector<const char*> flags = {}) {
     flags.insert(flags.begin(), {"choreod", "--config", file.c_str()});
     return RereadConfig(static_cast<int>(flags.size()), flags.data());
   }
@@ -62,6 +68,24 @@ TEST_F(LiveSettingsTest, AFileThatSetsNothingIsRefused) {
   for (const char* empty : {"", "\n", "# max-streams = 5\n"})
     ExpectError(ErrorCode::kInvalidArgument, "--config: " + file + " sets nothing",
                 [&] { Read(empty); });
+}
+
+TEST_F(LiveSettingsTest, AFileThatCannotBeReadIsNamedWithTheReason) {
+  std::filesystem::create_symlink(file, file);
+  const auto expect = [&](const std::string& fault) {
+    ExpectError(ErrorCode::kInvalidArgument, "--config: " + fault, [&] { Reread(); });
+  };
+  expect("cannot read " + file + ": Too many levels of symbolic links");
+  std::filesystem::remove(file);
+  std::filesystem::create_directory(file);
+  expect(file + " is a directory, no file");
+  std::filesystem::remove(file);
+  ASSERT_EQ(mkfifo(file.c_str(), 0600), 0);
+  expect(file + " is a FIFO, no file");
+  std::filesystem::remove(file);
+  ExpectError(ErrorCode::kInvalidArgument, "--config: " + file + " has 2097152 bytes, of at most",
+              [&] { Read(std::string(2 << 20, '#')); });
+  EXPECT_EQ(Read("max-streams = 6\n").max_streams, 6);
 }
 
 }  // namespace choreo::live_settings_test

@@ -156,6 +156,13 @@ TEST_F(ServeTest, RereadsItsSettingsOnSighup) {
   std::ofstream(file) << "max-streams = 7\nio-threads = 3\nlog-level = \"debug\"\n";
   Send(SIGHUP);
   ExpectEventually([&] { return limit() == 7; }, "the new limit is in use");
+  // Nobody writes to it.
+  std::filesystem::rename(file, file + ".former");
+  ASSERT_EQ(mkfifo(file.c_str(), 0600), 0);
+  Send(SIGHUP);
+  ExpectEventually([&] { return Read("log").find("is a FIFO") != std::string::npos; },
+                   "it is not waited for");
+  std::filesystem::rename(file + ".former", file);
   std::ofstream(file) << "max-streams = -1\n";
   Send(SIGHUP);
   ExpectEventually([&] { return Read("log").find("stay as they were") != std::string::npos; },
