@@ -184,6 +184,7 @@ class Reading {
     RequireNoEmptyFile(app_);
     config.Validate();
     config.given = GivenIn(app_);
+    config.overridden = file_->overridden();
   } catch (const CLI::Success&) {
     throw;
   } catch (const CLI::ParseError& error) {

@@ -60,6 +60,8 @@ struct ServerConfig {
 
   /// The settings that were given, as written, by flag without its dashes: {"max-streams", "64"}.
   std::map<std::string, std::string> given;
+  /// Those in the file of --config that flags override.
+  std::vector<std::string> overridden;
 
   /// HOST:PORT of `metrics`; a port alone means this machine.
   std::string MetricsAddress() const;

@@ -62,6 +62,8 @@ std::vector<CLI::ConfigItem> TomlFile::from_config(std::istream& input) const {
     item.name = key.str();
     const size_t line = key.source().begin.line;
     lines_[item.name] = line;
+    const CLI::Option* option = app_.get_option_no_throw("--" + item.name);
+    if (option != nullptr && option->count() > 0) overridden_.push_back(item.name);
     const auto add = [&](const toml::node& value) {
       if (value.is_table() || value.is_array() || value.is_date() || value.is_time() ||
           value.is_date_time())

@@ -25,12 +25,15 @@ class TomlFile final : public CLI::Config {
 
   /// "FILE:LINE: " for a setting in the file, such as "workers"; empty if the file lacks it.
   std::string PlaceOf(const std::string& setting) const;
+  /// The settings in the file that flags override.
+  const std::vector<std::string>& overridden() const { return overridden_; }
 
  private:
   std::string At(size_t line) const;
 
   const CLI::App& app_;
   mutable std::map<std::string, size_t> lines_;  // of the settings that were read
+  mutable std::vector<std::string> overridden_;
 };
 
 }  // namespace choreo

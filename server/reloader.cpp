@@ -49,10 +49,10 @@ void Reloader::Run(const std::stop_token& stop) {
 }
 
 void Reloader::RereadSettings() {
-  ServerConfig config;
+  ServerConfig config, fresh;
   SettingsChange change;
   try {
-    const ServerConfig fresh = read_();
+    fresh = read_();
     const std::lock_guard lock(mutex_);
     change = TakeOver(fresh, &config_);
     config = config_;
@@ -69,7 +69,11 @@ void Reloader::RereadSettings() {
   for (const std::string& one : change.used) spdlog::info("settings: {}", one);
   for (const std::string& one : change.waiting)
     spdlog::warn("settings: {}; that needs a restart", one);
-  if (change.used.empty() && change.waiting.empty()) spdlog::info("settings: none has changed");
+  for (const std::string& one : fresh.overridden)
+    spdlog::info("settings: the flag --{} overrides the file's line", one);
+  if (!change.used.empty() || !change.waiting.empty()) return;
+  spdlog::info("settings: none has changed{}",
+               fresh.given.contains("config") ? "" : "; without --config there is no file to read");
 }
 
 }  // namespace choreo

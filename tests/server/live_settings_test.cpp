@@ -54,8 +54,11 @@ TEST_F(LiveSettingsTest, LimitsAreUsedAtOnceAndOthersWait) {
 
 TEST_F(LiveSettingsTest, AFlagStillOverridesTheFile) {
   ServerConfig config = Read("max-streams = 5\n", {"--max-streams", "9"});
-  EXPECT_THAT(TakeOver(Read("max-streams = 7\n", {"--max-streams", "9"}), &config).used, IsEmpty());
+  const ServerConfig fresh = Read("max-streams = 7\nreflection = true\nidle-seconds = 9\n",
+                                  {"--max-streams", "9", "--no-reflection"});
+  EXPECT_THAT(TakeOver(fresh, &config).used, ElementsAre("idle-seconds is 9, was the default"));
   EXPECT_EQ(config.max_streams, 9);
+  EXPECT_THAT(fresh.overridden, ElementsAre("max-streams", "reflection"));
 }
 
 TEST_F(LiveSettingsTest, ABadSettingIsNamedWithItsLine) {

@@ -141,19 +141,22 @@ TEST_F(ServeTest, OutlivesSighupWithoutAFolder) {
   EXPECT_EQ(client.Dance({.frames = 20}, {}, {}).motion.frames.size(), 20U);
   Send(SIGTERM);
   const Outcome outcome = End();
-  EXPECT_THAT(outcome.said, HasSubstr("settings: none has changed"));
+  EXPECT_THAT(outcome.said,
+              HasSubstr("settings: none has changed; without --config there is no file"));
   EXPECT_THAT(outcome.said, HasSubstr("served 1 calls"));
 }
 
 TEST_F(ServeTest, RereadsItsSettingsOnSighup) {
   const std::string file = (folder_ / "choreod.toml").string();
   std::ofstream(file) << "max-streams = 5\n";
-  Start("--config '" + file + "'", "tee '" + (folder_ / "log").string() + "'");
+  Start("--first-message-seconds 9 --config '" + file + "'",
+        "tee '" + (folder_ / "log").string() + "'");
   AwaitListening();
   const client::Client client({.addresses = {address()}});
   const auto limit = [&] { return client.GetServerInfo().limits.max_streams; };
   EXPECT_EQ(limit(), 5);
-  std::ofstream(file) << "max-streams = 7\nio-threads = 3\nlog-level = \"debug\"\n";
+  std::ofstream(file) << "max-streams = 7\nio-threads = 3\nlog-level = \"debug\"\n"
+                      << "first-message-seconds = 8\n";
   Send(SIGHUP);
   ExpectEventually([&] { return limit() == 7; }, "the new limit is in use");
   // Nobody writes to it.
@@ -173,6 +176,8 @@ TEST_F(ServeTest, RereadsItsSettingsOnSighup) {
   EXPECT_THAT(outcome.said, HasSubstr("settings: max-streams is 7, was 5"));
   EXPECT_THAT(outcome.said,
               HasSubstr("settings: io-threads is 3, was the default; that needs a restart"));
+  EXPECT_THAT(outcome.said,
+              HasSubstr("settings: the flag --first-message-seconds overrides the file's line"));
   EXPECT_THAT(outcome.said, HasSubstr(file + ":1: --max-streams: -1 is not in"));
 }
 
