@@ -45,21 +45,30 @@ sigset_t SetOf(std::initializer_list<int> signals) {
 /// While this object exists, stop signals end choreod at once.
 class LeaveAtOnce {
  public:
-  /// `last`: runs before the exit.
-  explicit LeaveAtOnce(std::function<void()> last = {})
-      : thread_([last = std::move(last)](const std::stop_token& stop) {
-          const sigset_t asked = SetOf({SIGTERM, SIGINT});
+  /// While models load: SIGHUP waits for the server.
+  LeaveAtOnce() : LeaveAtOnce(SetOf({SIGTERM, SIGINT}), [] {}) {}
+  /// While the server drains. `last`: runs before the exit.
+  explicit LeaveAtOnce(std::function<void()> last)
+      : LeaveAtOnce(SetOf({SIGTERM, SIGINT, SIGHUP}), std::move(last)) {}
+
+ private:
+  LeaveAtOnce(sigset_t asked, std::function<void()> last)
+      : thread_([asked, last = std::move(last)](const std::stop_token& stop) {
           constexpr timespec kLook{.tv_sec = 0, .tv_nsec = 20'000'000};
           while (!stop.stop_requested()) {
             const int signal = sigtimedwait(&asked, nullptr, &kLook);
             if (signal <= 0) continue;
+            if (signal == SIGHUP) {
+              spdlog::warn("{}: nothing is read again while the server drains; SIGTERM ends it",
+                           strsignal(signal));
+              continue;
+            }
             spdlog::info("{}: exits immediately", strsignal(signal));
-            if (last) last();
+            last();
             Leave();
           }
         }) {}
 
- private:
   std::jthread thread_;
 };
 

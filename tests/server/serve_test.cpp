@@ -288,10 +288,12 @@ TEST_F(ServeTest, StopsAtOnceWhenSignalledTwice) {
   ASSERT_TRUE(dance->Next());
   Send(SIGTERM);
   ExpectEventually([&] { return !client.IsServing(); }, "it drains");
+  Send(SIGHUP);
   Send(SIGTERM);
   const Outcome outcome = End();
   EXPECT_EQ(outcome.code, 0) << outcome.said;
   EXPECT_THAT(outcome.said, HasSubstr("exits immediately"));
+  EXPECT_THAT(outcome.said, HasSubstr("nothing is read again while the server drains"));
   // The interrupted call is logged nevertheless.
   EXPECT_THAT(outcome.said,
               ContainsRegex("\"method\":\"StreamDance\".*\"status\":\"UNAVAILABLE\""));
