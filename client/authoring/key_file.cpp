@@ -13,6 +13,7 @@
 #include "client/authoring/key_joints.h"
 #include "client/authoring/key_numbers.h"
 #include "client/authoring/motion_input.h"
+#include "client/authoring/placing.h"
 #include "client/authoring/pose_library.h"
 #include "model/core/nearest.h"
 #include "model/core/rounded.h"
@@ -51,14 +52,12 @@ KeyPose ParseKey(const json& value, const std::string& field, const Skeleton& sk
   CheckMembers(value, field,
                {"id", "time", "frame", "hold", "hit", "hands", "pose", "place", "facing", "joints",
                 "root_position", "rotations", "smpl_poses", "smpl_trans", "poses", "trans"},
-               "a key has id, time or frame, hold, hit, hands, joints, and pose, place, facing; or "
+               "a key has id, time or frame, hold, hit, hands, place, facing, joints, and pose; or "
                "root_position, rotations; or smpl_poses, smpl_trans; or poses, trans");
-  for (const char* member : {"place", "facing"}) {
-    if (value.contains(member) && !value.contains("pose"))
-      throw InvalidArgument(field + "." + member, "goes with pose");
-  }
   const bool named = value.contains("pose") || (HasDegrees(value) && !HasNumbers(value));
   KeyPose key = named ? ParseNamed(value, field, skeleton) : ReadNumbers(value, field, skeleton);
+  // A pose of the library is around the origin; another one is where its numbers say.
+  if (!value.contains("pose")) PlaceRoot(ReadPlacing(value, field), field + ".place", &key);
   key.id = "key" + std::to_string(number);
   if (value.contains("id")) {
     if (!value["id"].is_string() || value["id"].get<std::string>().empty()) {
@@ -72,7 +71,7 @@ KeyPose ParseKey(const json& value, const std::string& field, const Skeleton& sk
   key.time_s = moment.time_s;
   key.frame = moment.frame;
   if (value.contains("joints")) ReadJoints(value["joints"], field + ".joints", skeleton, &key);
-  if (named && !value.contains("pose")) LimitToNamed(value["joints"], skeleton, &key);
+  if (named && !value.contains("pose")) LimitToNamed(value, skeleton, &key);
   return key;
 }
 

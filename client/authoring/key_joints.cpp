@@ -1,25 +1,20 @@
 #include "client/authoring/key_joints.h"
 
 #include <algorithm>
-#include <cmath>
 #include <nlohmann/json.hpp>
 #include <vector>
 
 #include "client/authoring/json_fields.h"
+#include "client/authoring/placing.h"
 #include "client/authoring/pose_library.h"
 #include "model/core/error.h"
-#include "model/core/rounded.h"
 #include "model/fit/retarget.h"
-#include "model/motion/canonical.h"
 #include "model/motion/joint_angles.h"
-#include "model/motion/rotation.h"
 
 namespace choreo::authoring {
 namespace {
 
 using nlohmann::json;
-
-constexpr double kMaxTurn = 360;  // degrees
 
 std::vector<double> NumbersOf(const json& value, const std::string& field) {
   if (!value.is_array()) return {JsonNumber(value, field)};
@@ -74,24 +69,9 @@ client::KeyPose ReadNamedPose(const json& value, const std::string& field,
   } catch (const Error& error) {
     throw InvalidArgument(field + ".pose", error.what());
   }
-  GroundFrame place;
-  if (value.contains("facing")) {
-    const double degrees = JsonNumber(value["facing"], field + ".facing");
-    if (!(std::abs(degrees) <= kMaxTurn)) {
-      throw InvalidArgument(field + ".facing", Shown(value["facing"]) + " degrees, must be " +
-                                                   Rounded(-kMaxTurn) + " to " + Rounded(kMaxTurn));
-    }
-    place.heading = degrees / kDegrees;
-  }
-  key.mask.root_position = value.contains("place");
-  if (key.mask.root_position) {
-    const std::vector<double> at = NumbersOf(value["place"], field + ".place");
-    if (at.size() != 2) {
-      throw InvalidArgument(field + ".place", Shown(value["place"]) + " is not [x, z], metres");
-    }
-    place.origin = {at[0], 0, at[1]};
-  }
-  key.pose = place.ToWorld(key.pose);
+  const Placing placing = ReadPlacing(value, field);
+  key.mask.root_position = placing.place.has_value();
+  key.pose = placing.From(GroundFrame()).ToWorld(key.pose);
   return key;
 }
 
@@ -112,10 +92,11 @@ void ReadJoints(const json& joints, const std::string& field, const Skeleton& sk
   }
 }
 
-void LimitToNamed(const json& joints, const Skeleton& skeleton, client::KeyPose* key) {
-  key->mask.root_position = false;
+void LimitToNamed(const json& value, const Skeleton& skeleton, client::KeyPose* key) {
+  key->mask.root_position = value.contains("place");
   key->mask.joints.assign(static_cast<size_t>(skeleton.joints()), false);
-  for (const auto& [name, degrees] : joints.items())
+  key->mask.joints[0] = value.contains("facing");
+  for (const auto& [name, degrees] : value["joints"].items())
     key->mask.joints[static_cast<size_t>(skeleton.Find(name))] = true;
 }
 

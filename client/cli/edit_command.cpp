@@ -9,6 +9,7 @@
 #include "client/cli/edit_whole.h"
 #include "client/cli/options.h"
 #include "client/cli/output_file.h"
+#include "client/cli/placing_options.h"
 #include "client/cli/report.h"
 #include "model/core/rounded.h"
 #include "model/formats/motion_file.h"
@@ -121,6 +122,8 @@ void CheckOptions(const EditOptions& options) {
     throw InvalidArgument("--hold", "goes with --key and --move");
   if (!options.hands.empty() && options.keys.empty() && options.moves.empty())
     throw InvalidArgument("--hands", "goes with --key and --move");
+  if (options.placing.IsGiven() && options.keys.empty())
+    throw InvalidArgument(options.placing.place ? "--place" : "--facing", "goes with --key");
   RequireWrittenMotionFile(options.out);
   std::vector<NamedFile> inputs = FilesOf(options.controls);
   inputs.push_back({"dance", options.dance});
@@ -255,6 +258,7 @@ void AddEditCommand(CLI::App& program) {
   command->add_flag(
       "--in-place", options->in_place,
       "Set poses of files, and moved keys, where the dancer stands and faces at that time, too.");
+  AddPlacing(*command, options->placing, "each pose of --key");
   AddAllowBends(*command, options->allow_bends);
   command->add_flag("--loop", options->loop,
                     "Lead the last frames back into the first, so that the dance can be repeated. "

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "client/authoring/music.h"
+#include "client/authoring/placing.h"
 #include "client/authoring/written_controls.h"
 #include "client/cli/connection.h"
 #include "client/cli/dance_settings.h"
@@ -34,10 +35,11 @@ struct EditOptions : DanceManner {
   std::vector<std::tuple<std::string, std::string, double>> stretches;  ///< start, end, factor
   std::vector<std::pair<std::string, std::string>> mirrored;            ///< start, end
   std::vector<std::pair<std::string, std::string>> retakes;             ///< start, end
-  std::string end;            ///< the pose to end in, as in --key; or empty
-  std::string hold;           ///< of `keys`; or empty
-  std::optional<double> hit;  ///< of `keys` and `moves`
-  std::string hands;          ///< of `keys` and `moves`; or empty
+  std::string end;             ///< the pose to end in, as in --key; or empty
+  std::string hold;            ///< of `keys`; or empty
+  std::optional<double> hit;   ///< of `keys` and `moves`
+  std::string hands;           ///< of `keys` and `moves`; or empty
+  authoring::Placing placing;  ///< of `keys`
   bool in_place = false;
   bool allow_bends = false;
   bool loop = false;

@@ -62,11 +62,14 @@ void EditSession::SetKey(const std::string& source, double at_s) {
   client::KeyEdit edit;
   edit.key = named.key;
   edit.key.frame = FrameInDance("--at", at_s);
+  const GroundFrame here = Here(*edit.key.frame);
   Pose& pose = edit.key.pose;
-  if (!named.has_place)
-    pose = Here(*edit.key.frame).ToWorld(pose);
-  else if (options_.in_place)
-    pose = Here(*edit.key.frame).ToWorld(GroundFrame::Of(pose).ToLocal(pose));
+  if (!named.has_place) {
+    pose = options_.placing.From(here).ToWorld(pose);
+  } else {
+    if (options_.in_place) pose = here.ToWorld(GroundFrame::Of(pose).ToLocal(pose));
+    authoring::PlaceRoot(options_.placing, "--place", &edit.key);
+  }
   edit.held = named.held;
   if (!options_.hands.empty()) edit.key.hands = FindHandPose(options_.hands);
   if (options_.hit) edit.key.hit = options_.hit;

@@ -11,6 +11,7 @@
 #include "client/cli/commands.h"
 #include "client/cli/options.h"
 #include "client/cli/output_file.h"
+#include "client/cli/placing_options.h"
 #include "client/cli/pose_recipe.h"
 #include "model/core/atomic_file.h"
 #include "model/core/error.h"
@@ -188,6 +189,7 @@ void AddPoseCommand(CLI::App& program) {
   command->add_flag("--keep-hands", recipe.keeps_hands,
                     "Keep hands and head near their places if --reach moves the pelvis.");
   command->add_flag("--mirror", recipe.mirror, "Exchange left and right.");
+  AddPlacing(*command, recipe.placing, "the pose");
   command->add_option("--at", options->at_s, "Second of the dance for the written key.")
       ->check(TimeInSeconds())
       ->capture_default_str();

@@ -1,12 +1,13 @@
 #include "client/cli/pose_recipe.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <string_view>
+#include <utility>
 
 #include "client/authoring/photo_pose.h"
 #include "client/authoring/pose_source.h"
+#include "client/cli/placing_options.h"
 #include "model/body/doll.h"
 #include "model/core/error.h"
 #include "model/core/rounded.h"
@@ -34,34 +35,24 @@ Assignment Parse(const std::string& option, const std::string& text, const Skele
   if (equals == std::string::npos)
     throw InvalidArgument(parsed.field, "has no =, as in left_elbow=90");
   parsed.joint = RequireJoint(skeleton, text.substr(0, equals), parsed.field);
-  std::string_view rest = std::string_view(text).substr(equals + 1);
-  while (true) {
-    const std::string_view item = rest.substr(0, rest.find(','));
-    double number = 0;
-    const char* end = item.data() + item.size();
-    const auto [stop, code] = std::from_chars(item.data(), end, number);
-    if (code != std::errc() || stop != end || !std::isfinite(number))
-      throw InvalidArgument(parsed.field, "\"" + std::string(item) + "\" is not a number");
-    parsed.numbers.push_back(number);
-    if (item.size() == rest.size()) return parsed;
-    rest.remove_prefix(item.size() + 1);
-  }
+  parsed.numbers = ParseNumbers(std::string_view(text).substr(equals + 1), parsed.field);
+  return parsed;
 }
 
-client::KeyPose Begin(const PoseRecipe& recipe, const Skeleton& skeleton) {
+authoring::NamedPose Begin(const PoseRecipe& recipe, const Skeleton& skeleton) {
+  if (recipe.from_landmarks.empty() && recipe.from_smpl.empty() && recipe.from != "rest")
+    return authoring::ReadPose(recipe.from, skeleton);
   client::KeyPose key;
   key.id = "photo";
   if (!recipe.from_landmarks.empty()) {
     key.pose = authoring::ReadLandmarkPose(recipe.from_landmarks, skeleton);
   } else if (!recipe.from_smpl.empty()) {
     key.pose = authoring::ReadSmplPose(recipe.from_smpl, skeleton);
-  } else if (recipe.from != "rest") {
-    return authoring::ReadPose(recipe.from, skeleton).key;
   } else {
     key.id = recipe.from;
     key.pose = RestPose(skeleton);
   }
-  return key;
+  return {std::move(key)};
 }
 
 void Set(const std::vector<std::string>& set, const Skeleton& skeleton, client::KeyPose* key) {
@@ -111,12 +102,17 @@ void MirrorKey(const Skeleton& skeleton, client::KeyPose* key) {
 }  // namespace
 
 client::KeyPose MakePose(const PoseRecipe& recipe, const Skeleton& skeleton) {
-  client::KeyPose key = Begin(recipe, skeleton);
+  authoring::NamedPose begun = Begin(recipe, skeleton);
+  client::KeyPose& key = begun.key;
   Set(recipe.set, skeleton, &key);
   if (recipe.height_m)
     key.pose.root_position.y() += *recipe.height_m - DollAboveFloor(skeleton, key.pose);
   Draw(recipe, skeleton, &key.pose);
   if (recipe.mirror) MirrorKey(skeleton, &key);
+  if (begun.has_place)
+    authoring::PlaceRoot(recipe.placing, "--place", &key);
+  else
+    key.pose = recipe.placing.From(GroundFrame()).ToWorld(key.pose);
   return key;
 }
 

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "client/authoring/placing.h"
 #include "client/choreo_client.h"
 
 namespace choreo::cli {
@@ -20,8 +21,9 @@ struct PoseRecipe {
   /// "right_hand=0.3,1.6,0.2": joints moved to places, metres (fit/inverse_kinematics.h). The
   /// height of foot joints is the sole's: 0 is the floor.
   std::vector<std::string> reach;
-  bool keeps_hands = false;  ///< and head where they are when the pelvis is moved
-  bool mirror = false;       ///< swaps left and right
+  bool keeps_hands = false;         ///< and head where they are when the pelvis is moved
+  bool mirror = false;              ///< swaps left and right
+  authoring::Placing placing = {};  ///< over the floor; a library pose is around the origin
 };
 
 /// Makes the pose. Its mask is that of `from` plus the joints that were set. Throws

@@ -5,6 +5,7 @@
 
 #include "client/authoring/pose_library.h"
 #include "model/core/atomic_file.h"
+#include "model/motion/canonical.h"
 
 #include "tests/client/edit_fixture.h"
 
@@ -45,6 +46,21 @@ TEST_F(EditTest, MovedKeyIsOnlyAtItsNewSecond) {
   ASSERT_EQ(keys.size(), keys_.size());
   EXPECT_EQ(keys[2]["frame"], keys_[3]);
   EXPECT_EQ(keys[3]["id"], id);
+}
+
+TEST_F(EditTest, ANewKeyStandsWhereItIsPut) {
+  ASSERT_EQ(Choreo("pose --from dab --set left_elbow=90 --out " + At("own.json")).code, 0);
+  for (const std::string& key : {At("own.json"), std::string("dab")}) {
+    const Outcome outcome = Edit("--key " + key + " --at 3 --place -0.5,1 --facing 90 --report " +
+                                 At("report.json") + " -o " + At("new.npz"));
+    ASSERT_EQ(outcome.code, 0) << outcome.said;
+    const GroundFrame there = GroundFrame::Of(Read("new.npz").frames[90]);
+    EXPECT_LT((there.origin - Eigen::Vector3d(-0.5, 0, 1)).norm(), 0.1) << key;
+    EXPECT_NEAR(there.heading, M_PI / 2, 0.3) << key;
+  }
+  EXPECT_THAT(
+      Edit("--move a 3 --place 1,1 --report " + At("report.json") + " -o " + At("n.npz")).said,
+      HasSubstr("--place: goes with --key"));
 }
 
 TEST_F(EditTest, TimesAreAlsoCountsOfTheMusic) {

@@ -10,6 +10,7 @@
 #include "client/authoring/pose_source.h"
 #include "client/cli/pose_recipe.h"
 #include "model/body/doll.h"
+#include "model/motion/canonical.h"
 #include "model/motion/kinematics.h"
 #include "tests/client/run_choreo.h"
 #include "tests/support/expect_error.h"
@@ -65,6 +66,25 @@ TEST_F(PoseCommandTest, OutputIsAValidKey) {
       ComparePoses(Body(), read.key.pose, authoring::FindLibraryPose("groove").pose).position_m,
       1e-3);
   EXPECT_EQ(authoring::PoseFileText(read, Body()), authoring::ReadText(path, "pose"));
+}
+
+TEST_F(PoseCommandTest, PlacesAndTurnsThePose) {
+  ASSERT_EQ(Choreo("pose --from kick --place -1,2 --facing 90 --out " + At("a.json")).code, 0);
+  const GroundFrame placed{.origin = {-1, 0, 2}, .heading = M_PI / 2};
+  const Pose kick = authoring::FindLibraryPose("kick").pose;
+  EXPECT_LT(ComparePoses(Body(), Read("a.json"), placed.ToWorld(kick)).position_m, 1e-3);
+
+  // One's own pose is where its hips are.
+  ASSERT_EQ(
+      Choreo("pose --from " + At("a.json") + " --place 0,0.5 --facing -45 --out " + At("b.json"))
+          .code,
+      0);
+  const GroundFrame own = GroundFrame::Of(Read("b.json"));
+  EXPECT_LT((own.origin - Eigen::Vector3d(0, 0, 0.5)).norm(), 1e-3);
+  EXPECT_NEAR(own.heading, -M_PI / 4, 1e-3);
+  EXPECT_NEAR(Read("b.json").root_position.y(), kick.root_position.y(), 1e-3);
+  EXPECT_THAT(Choreo("pose --place 1 --out " + At("c.json")).said,
+              HasSubstr("--place: \"1\" is not X,Z, metres"));
 }
 
 TEST_F(PoseCommandTest, WritesWhatHandsDoAndKeepsWhatAKeyFileSays) {

@@ -26,6 +26,17 @@ test('key files are read as by choreo', () => {
   }
 });
 
+test('any pose is placed and turned as by choreo', () => {
+  for (const { file, root, pelvis, joints } of JSON.parse(read('tests/examples/placed_keys.json'))) {
+    const [{ keyframe: { pose, mask } }] = readKeys(file, skeleton);
+    const near = (mine, known) => mine.forEach((number, at) => assert.ok(Math.abs(number - known[at]) < 1e-3, `${mine} ${known}`));
+    assert.equal('root_position' in pose, root !== undefined);
+    if (root) near(Object.values(pose.root_position), root);
+    near(pose.rotations.slice(0, 3), pelvis);
+    assert.deepEqual(mask?.joints ?? [], joints);
+  }
+});
+
 test('keys of a file are danced', async () => {
   const reached = [];
   for await (const { event } of client.streamDance([{ config: { frames: 360 } }, ...readKeys(JSON.parse(read('examples/poses.json')), skeleton)])) {

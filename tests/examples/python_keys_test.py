@@ -40,6 +40,15 @@ class KeysTest(unittest.TestCase):
             for key, known in zip(read, keys):
                 self.assert_alike(key, known, key["id"])
 
+    def test_any_pose_is_placed_and_turned_as_by_choreo(self):
+        for placed in json.loads((ROOT / "tests/examples/placed_keys.json").read_text()):
+            keyframe = read_keys(placed["file"], self.skeleton)[0]["keyframe"]
+            pose, root = keyframe["pose"], placed.get("root")
+            self.assertEqual("root_position" in pose, root is not None)
+            for one, known in zip([*pose.get("root_position", {}).values(), *pose["rotations"][:3]], [*(root or []), *placed["pelvis"]]):
+                self.assertAlmostEqual(one, known, 3)
+            self.assertEqual(keyframe.get("mask", {}).get("joints", []), placed["joints"])
+
     def test_keys_of_a_file_are_danced(self):
         with Client(os.environ["CHOREO_SERVER"]) as client:
             requests = [{"config": {"frames": 360}}, *read_keys((ROOT / "examples/poses.json").read_text(), self.skeleton)]

@@ -94,7 +94,7 @@ function readKey(value, field, name, skeleton, warn) {
       const at = `${field}.joints.${joint}`;
       rotations[jointOf(joint, skeleton, at)] = turnOf(joint, degrees, skeleton, at);
     }
-    if (!('pose' in value) && !('rotations' in value)) key.mask = { joints: ascending(Object.keys(joints).map((joint) => jointOf(joint, skeleton, field))) };
+    if (!('pose' in value) && !('rotations' in value)) key.mask = { joints: ascending([...('facing' in value ? [0] : []), ...Object.keys(joints).map((joint) => jointOf(joint, skeleton, field))]) };
   } else if (joints !== undefined) {
     key.mask = { joints: maskOf(joints, skeleton, `${field}.joints`) };
   }
@@ -111,32 +111,40 @@ function setsFeet(mask, { feet, parents }) {
 
 /** Reads the rotations of all joints, the root's position, if any, and a warning for a jump that will be danced standing. */
 function readPose(value, field, skeleton) {
-  for (const member of ['place', 'facing']) if (member in value && !('pose' in value)) throw invalid(`${field}.${member}`, 'goes with pose');
+  const { facing = 0 } = value;
+  if (Math.abs(number(facing, `${field}.facing`)) > 360) throw invalid(`${field}.facing`, `${facing} degrees, must be -360 to 360`);
+  const at = 'place' in value ? placeOf(value.place, `${field}.place`) : undefined;
   const count = skeleton.joint_names.length;
   if ('rotations' in value) {
     if ('pose' in value) throw invalid(`${field}.rotations`, 'cannot be combined with pose');
     if (!Array.isArray(value.rotations) || value.rotations.length !== count) throw invalid(`${field}.rotations`, `${quoted(value.rotations)} is not one vector for each of ${count} joints`);
     const rotations = value.rotations.map((one, at) => rotationOf(one, `${field}.rotations[${at}]`));
-    return { rotations, root: 'root_position' in value ? vector(value.root_position, 3, `${field}.root_position`) : undefined };
+    const root = 'root_position' in value ? vector(value.root_position, 3, `${field}.root_position`) : undefined;
+    if (at && !root) throw invalid(`${field}.place`, 'needs a root_position, which says how high the pose is');
+    return placed({ rotations, root }, at, value.facing);
   }
   if ('root_position' in value) throw invalid(`${field}.rotations`, 'is missing beside root_position');
   if (!('pose' in value)) {
     if (!isObject(value.joints)) throw invalid(`${field}.rotations`, 'is missing, and so is pose');
-    return { rotations: skeleton.joint_names.map(() => [0, 0, 0]) };
+    return placed({ rotations: skeleton.joint_names.map(() => [0, 0, 0]), root: at && [0, skeleton.pelvis_height, 0] }, at, value.facing);
   }
   if (skeleton.name !== 'smpl24') throw invalid(`${field}.pose`, `poses of the library are of smpl24, not of ${skeleton.name || 'this skeleton'}`);
   const named = find(value.pose, `${field}.pose`);
-  const { facing = 0 } = value;
-  if (Math.abs(number(facing, `${field}.facing`)) > 360) throw invalid(`${field}.facing`, `${facing} degrees, must be -360 to 360`);
   const heading = [0, radians(facing), 0];
   const rotations = named.rotations.map((one, joint) => (joint === 0 ? times(heading, one) : [...one]));
-  if (!('place' in value)) {
+  if (!at) {
     const lostJump = `${named.id} is in the air, but without a place it stands on the floor; give it one: "place": [x, z]`;
     return { rotations, ...(named.tags.includes('jump') && { lostJump }) };
   }
-  const [x, z] = placeOf(value.place, `${field}.place`);
   const root = turned(heading, named.root_position);
-  return { rotations, root: [root[0] + x, root[1], root[2] + z] };
+  return { rotations, root: [root[0] + at[0], root[1], root[2] + at[1]] };
+}
+
+/** Moves a pose so that its root is above a place, and turns it there so that its root faces that way. */
+function placed({ rotations: [pelvis, ...others], root }, at, facing) {
+  const ahead = turned(pelvis, [0, 0, 1]);
+  const turn = facing === undefined ? 0 : radians(facing) - Math.atan2(ahead[0], ahead[2]);
+  return { rotations: [turn === 0 ? pelvis : times([0, turn, 0], pelvis), ...others], root: at ? [at[0], root[1], at[1]] : root };
 }
 
 /** Returns the keys that hold this one. Sets the key's hit unless it has one. */

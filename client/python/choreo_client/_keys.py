@@ -116,7 +116,8 @@ def _key(value, field, name, skeleton):
         for joint, degrees in joints.items():
             rotations[_joint(joint, skeleton, f"{field}.joints.{joint}")] = _turn(joint, degrees, skeleton, f"{field}.joints.{joint}")
         if "pose" not in value and "rotations" not in value:
-            key["mask"] = {"joints": sorted(_joint(joint, skeleton, field) for joint in joints)}
+            named = {_joint(joint, skeleton, field) for joint in joints}
+            key["mask"] = {"joints": sorted(named | ({0} if "facing" in value else set()))}
     elif "joints" in value:
         key["mask"] = {"joints": _mask(joints, skeleton, f"{field}.joints")}
     key["pose"] = _pose_of(rotations, root)
@@ -131,9 +132,10 @@ def _pose_of(rotations, root):
 
 def _pose(value, field, skeleton):
     """Reads the rotations of all joints, the root's position or None, and a warning for a jump that will be danced standing."""
-    for member in ("place", "facing"):
-        if member in value and "pose" not in value:
-            raise invalid(f"{field}.{member}", "goes with pose")
+    facing = _number(value.get("facing", 0), f"{field}.facing")
+    if abs(facing) > 360:
+        raise invalid(f"{field}.facing", f"{facing} degrees, must be -360 to 360")
+    place = _place(value["place"], f"{field}.place") if "place" in value else None
     if "rotations" in value:
         if "pose" in value:
             raise invalid(f"{field}.rotations", "cannot be combined with pose")
@@ -142,31 +144,43 @@ def _pose(value, field, skeleton):
             raise invalid(f"{field}.rotations", f"{quoted(rotations)} is not one vector for each of {len(skeleton.joint_names)} joints")
         turns = [_rotation(one, f"{field}.rotations[{at}]") for at, one in enumerate(rotations)]
         root = _vector(value["root_position"], 3, f"{field}.root_position") if "root_position" in value else None
-        return turns, root, None
+        if place is not None and root is None:
+            raise invalid(f"{field}.place", "needs a root_position, which says how high the pose is")
+        return *_placed(turns, root, place, value.get("facing")), None
     if "root_position" in value:
         raise invalid(f"{field}.rotations", "is missing beside root_position")
     if "pose" not in value:
         if not isinstance(value.get("joints"), typing.Mapping):
             raise invalid(f"{field}.rotations", "is missing, and so is pose")
-        return [[0.0] * 3 for _ in skeleton.joint_names], None, None
+        root = None if place is None else [0.0, skeleton.pelvis_height, 0.0]
+        return *_placed([[0.0] * 3 for _ in skeleton.joint_names], root, place, value.get("facing")), None
     if skeleton.name != "smpl24":
         raise invalid(f"{field}.pose", f"poses of the library are of smpl24, not of {skeleton.name or 'this skeleton'}")
     named = find(value["pose"], f"{field}.pose")
-    facing = _number(value.get("facing", 0), f"{field}.facing")
-    if abs(facing) > 360:
-        raise invalid(f"{field}.facing", f"{facing} degrees, must be -360 to 360")
     heading = [0.0, math.radians(facing), 0.0]
     rotations = [list(one) for one in named.rotations]
     rotations[0] = _log(_times(_quaternion(heading), _quaternion(rotations[0])))
-    if "place" not in value:
+    if place is None:
         lost_jump = f'{named.id} is in the air, but without a place it stands on the floor; give it one: "place": [x, z]'
         return rotations, None, lost_jump if "jump" in named.tags else None
-    place = value["place"]
-    if not isinstance(place, list) or len(place) != 2:
-        raise invalid(f"{field}.place", f"{quoted(place)} is not a list of 2 numbers, [x, z] in metres; {WITHOUT_PLACE}")
-    x, z = _vector(place, 2, f"{field}.place")
     turned = _turned(_quaternion(heading), named.root_position)
-    return rotations, [turned[0] + x, turned[1], turned[2] + z], None
+    return rotations, [turned[0] + place[0], turned[1], turned[2] + place[1]], None
+
+
+def _place(value, field):
+    if not isinstance(value, list) or len(value) != 2:
+        raise invalid(field, f"{quoted(value)} is not a list of 2 numbers, [x, z] in metres; {WITHOUT_PLACE}")
+    return _vector(value, 2, field)
+
+
+def _placed(rotations, root, place, facing):
+    """Moves a pose so that its root is above a place, and turns it there so that its root faces that way."""
+    pelvis = _quaternion(rotations[0])
+    if facing is not None:
+        ahead = _turned(pelvis, [0.0, 0.0, 1.0])
+        turn = math.radians(facing) - math.atan2(ahead[0], ahead[2])
+        rotations = [_log(_times(_quaternion([0.0, turn, 0.0]), pelvis)), *rotations[1:]]
+    return rotations, root if place is None else [place[0], root[1], place[1]]
 
 
 def _sets_feet(mask, skeleton):

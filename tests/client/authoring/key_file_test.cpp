@@ -161,6 +161,29 @@ TEST(KeyFileTest, PackagesRefuseTheSameKeys) {
   }
 }
 
+// client/node and client/python are tested with the same file.
+TEST(KeyFileTest, PlacesAndTurnsAnyPose) {
+  std::ifstream file(std::filesystem::path(SOURCE_FOLDER) / "tests/examples/placed_keys.json");
+  for (const auto& placed : nlohmann::json::parse(file)) {
+    SCOPED_TRACE(placed.dump());
+    const v1::Keyframe sent = client::ToProto(Parse(placed.at("file").dump())[0]);
+    EXPECT_EQ(sent.pose().has_root_position(), placed.contains("root"));
+    if (placed.contains("root")) {
+      const auto& root = sent.pose().root_position();
+      EXPECT_THAT((std::vector<double>{root.x(), root.y(), root.z()}),
+                  testing::Pointwise(testing::DoubleNear(1e-3),
+                                     placed.at("root").get<std::vector<double>>()));
+    }
+    const auto& rotations = sent.pose().rotations();
+    EXPECT_THAT(std::vector<float>(rotations.begin(), rotations.begin() + 3),
+                testing::Pointwise(testing::FloatNear(1e-5F),
+                                   placed.at("pelvis").get<std::vector<float>>()));
+    const auto& mask = sent.mask().joints();
+    EXPECT_EQ(std::vector<int>(mask.begin(), mask.end()),
+              placed.at("joints").get<std::vector<int>>());
+  }
+}
+
 TEST(KeyFileTest, RefusesWhatIsNestedTooDeeply) {
   const auto nested = [](size_t levels, const std::string& inner) {
     return std::string(levels, '[') + inner + std::string(levels, ']');

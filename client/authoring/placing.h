@@ -1,0 +1,33 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+
+#include "client/dance_messages.h"
+#include "model/motion/canonical.h"
+
+namespace choreo::authoring {
+
+inline constexpr double kMaxFacing = 360;  ///< degrees, either way
+
+/// Where on the floor a pose is put, and which way it faces. What is not given stays.
+struct Placing {
+  std::optional<Eigen::Vector2d> place = {};  ///< x and z, metres
+  std::optional<double> facing = {};          ///< degrees about +Y: 90 is along x
+
+  bool IsGiven() const { return place || facing; }
+  /// The frame that a pose in `from` has when it is placed.
+  GroundFrame From(GroundFrame from) const;
+};
+
+/// Reads the members place and facing of a key. Throws Error(kInvalidArgument), naming the field.
+Placing ReadPlacing(const nlohmann::json& value, const std::string& field);
+
+/// Moves a pose over the floor so that its root is above the place, and turns it there so that its
+/// root faces that way. Throws Error(kInvalidArgument, field) for a place of a key without a root
+/// position, which says how high the root is.
+void PlaceRoot(const Placing& placing, const std::string& field, client::KeyPose* key);
+
+}  // namespace choreo::authoring
