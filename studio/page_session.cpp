@@ -122,7 +122,8 @@ void PageSession::SendFaults(uint32_t call, const std::vector<client::KeyPose>& 
 }
 
 void PageSession::StartDance(uint32_t call, const Dance& request) {
-  if (dances_.contains(call)) throw InvalidArgument("dance", "came twice");
+  // An exception would end the dance in progress.
+  if (dances_.contains(call)) return Fail(call, "dance: came twice");
   if (dances_.size() >= kMaxDances)
     throw Error(ErrorCode::kResourceExhausted, "dance",
                 std::to_string(kMaxDances) + " are in progress, the most");

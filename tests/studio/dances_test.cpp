@@ -70,6 +70,20 @@ TEST_F(StudioTest, AnswersAFailureOfADancesThread) {
   EXPECT_EQ(answered.get_future().get(), "the page is gone");
 }
 
+TEST_F(StudioTest, ASecondDanceOfANumberLeavesTheFirst) {
+  const Opened studio(server_.address());
+  Page page(studio.port());
+  page.Say(2, LiveRequest(7, 22050));
+  page.Say(2, DanceRequest(10, 1));
+  Response said = page.Read();
+  while (!said.has_failure()) said = page.Read();
+  EXPECT_EQ(said.failure().message(), "dance: came twice");
+  Grant(2, 10, &page);
+  Play(2, std::vector<float>(22050), &page);
+  while (said.dance().frames().count() == 0) said = page.Read();
+  EXPECT_EQ(said.call(), 2U);
+}
+
 // The page's beats replace the detected ones.
 TEST_F(StudioTest, DancesOnTheBeatsOfThePage) {
   const Opened studio(server_.address());
