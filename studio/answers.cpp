@@ -21,12 +21,6 @@ std::filesystem::path PlaceFor(const ScratchFolder& folder, const std::string& n
   return folder.path() / ("file" + SmallExtension(name));
 }
 
-/// Replaces our path by the page's file name in an error message.
-std::string Named(const std::string& message, const std::string& path, const std::string& name) {
-  const size_t at = message.find(path);
-  return at == std::string::npos ? message : std::string(message).replace(at, path.size(), name);
-}
-
 }  // namespace
 
 std::shared_ptr<const Song> HearSongOf(const StudioContext& context, const File& file) {
@@ -82,12 +76,13 @@ Response ReadClip(const StudioContext& context, const File& file) {
     dance.motion =
         ReadMotion(path, context.model().skeleton, OtherSkeleton::kRetarget, {.notes = &notes});
   } catch (const Error& error) {
-    throw Error(error.code(), "", Named(error.what(), path.string(), file.name()));
+    // The page does not know our path.
+    const std::string ours = path.string(), &field = error.field();
+    throw field.starts_with(ours) ? error.Of(file.name() + field.substr(ours.size())) : error;
   }
   Response response;
   *response.mutable_clip() = ToProto(dance);
-  for (const std::string& note : notes)
-    response.mutable_clip()->add_notes(Named(note, path.string(), file.name()));
+  for (const std::string& note : notes) response.mutable_clip()->add_notes(note);
   return response;
 }
 

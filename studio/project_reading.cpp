@@ -84,10 +84,8 @@ void AddOwnKeys(const authoring::Dancer& dancer, const ScratchFolder& folder,
       keys.poses = authoring::ReadKeys(kept, context.model().skeleton, &keys.places, counts);
       AddKeys(std::move(keys), context, out->mutable_keys());
     } catch (const Error& error) {
-      std::string message = error.what();
       const std::string path = folder.path().string() + "/";
-      if (message.starts_with(path)) message.erase(0, path.size());
-      throw Error(error.code(), "", message);
+      throw error.field().starts_with(path) ? error.Of(error.field().substr(path.size())) : error;
     }
   }
 }
