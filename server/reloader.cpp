@@ -5,15 +5,18 @@
 #include <exception>
 #include <utility>
 
+#include "model/core/printable.h"
 #include "server/live_settings.h"
 #include "server/service_manager.h"
 
 namespace choreo {
 
-Reloader::Reloader(ServerConfig config, SettingsReader read, ModelFolder* folder, Server& server)
+Reloader::Reloader(ServerConfig config, SettingsReader read, ModelFolder* folder, Server& server,
+                   std::string status)
     : read_(std::move(read)),
       folder_(folder),
       server_(server),
+      status_(std::move(status)),
       config_(std::move(config)),
       thread_([this](const std::stop_token& stop) { Run(stop); }) {}
 
@@ -40,15 +43,16 @@ void Reloader::Run(const std::stop_token& stop) {
     loads_ = true;
     lock.unlock();
     TellManagerOfReload();
-    RereadSettings();
+    const std::string fault = RereadSettings();
     if (folder_ != nullptr) folder_->Reload(server_, [&stop] { return stop.stop_requested(); });
-    if (!stop.stop_requested()) TellManager("READY=1");
+    if (!stop.stop_requested())
+      TellManager("READY=1\nSTATUS=" + (fault.empty() ? status_ : Printable(fault)));
     lock.lock();
     loads_ = false;
   }
 }
 
-void Reloader::RereadSettings() {
+std::string Reloader::RereadSettings() {
   ServerConfig config, fresh;
   SettingsChange change;
   try {
@@ -58,8 +62,9 @@ void Reloader::RereadSettings() {
     config = config_;
   } catch (const std::exception& error) {
     server_.NoteSettingsReload(false);
-    spdlog::error("{}; all settings stay as they were", error.what());
-    return;
+    const std::string fault = std::string(error.what()) + "; all settings stay as they were";
+    spdlog::error("{}", fault);
+    return fault;
   }
   server_.NoteSettingsReload(true);
   if (!change.used.empty()) {
@@ -71,9 +76,10 @@ void Reloader::RereadSettings() {
     spdlog::warn("settings: {}; that needs a restart", one);
   for (const std::string& one : fresh.overridden)
     spdlog::info("settings: the flag --{} overrides the file's line", one);
-  if (!change.used.empty() || !change.waiting.empty()) return;
+  if (!change.used.empty() || !change.waiting.empty()) return "";
   spdlog::info("settings: none has changed{}",
                fresh.given.contains("config") ? "" : "; without --config there is no file to read");
+  return "";
 }
 
 }  // namespace choreo

@@ -3,6 +3,7 @@
 #include <condition_variable>
 #include <functional>
 #include <mutex>
+#include <string>
 #include <thread>
 
 #include "server/config.h"
@@ -18,8 +19,10 @@ using SettingsReader = std::function<ServerConfig()>;
 /// takes seconds, during which signals must be handled. Requests during a reread cause one more.
 class Reloader {
  public:
-  /// `folder`: null without one. `config`: what the server was started with.
-  Reloader(ServerConfig config, SettingsReader read, ModelFolder* folder, Server& server);
+  /// `folder`: null without one. `config`: what the server was started with. `status`: what the
+  /// service manager shows after good settings, instead of the fault of bad ones.
+  Reloader(ServerConfig config, SettingsReader read, ModelFolder* folder, Server& server,
+           std::string status);
 
   void Request();
   /// Stops after the file that is being read; drops further requests.
@@ -30,11 +33,13 @@ class Reloader {
 
  private:
   void Run(const std::stop_token& stop);
-  void RereadSettings();
+  /// Returns the fault, or nothing.
+  std::string RereadSettings();
 
   const SettingsReader read_;
   ModelFolder* const folder_;
   Server& server_;
+  const std::string status_;
   mutable std::mutex mutex_;
   std::condition_variable_any wake_;
   ServerConfig config_;                 // lock: mutex_

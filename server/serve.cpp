@@ -133,10 +133,10 @@ void Serve(const ServerConfig& config, const ModelFolder::Loader& load,
     return;
   }
   Server server(config, std::move(models));
-  Reloader reloader(config, reread, config.models.empty() ? nullptr : &folder, server);
   // Programs that start a choreod wait for this line.
   const std::string line = "choreod listens on " + SplitAddress(config.listen).host + ':' +
                            std::to_string(server.port());
+  Reloader reloader(config, reread, config.models.empty() ? nullptr : &folder, server, line);
   std::cout << (config.log_format == "json" ? JsonLine("info", line) : line) << std::endl;
   TellManager("READY=1\nSTATUS=" + line);
 
@@ -147,7 +147,7 @@ void Serve(const ServerConfig& config, const ModelFolder::Loader& load,
   const double drain_seconds = reloader.drain_seconds();
   spdlog::info("{}: draining for up to {} s; again to exit immediately", strsignal(signal),
                drain_seconds);
-  TellManager("STOPPING=1\nSTATUS=drains for up to " + std::to_string(drain_seconds) + " s");
+  TellManagerOfDrain(drain_seconds);
   {
     const LeaveAtOnce leave([&server] { server.GiveUp(); });
     server.Drain(drain_seconds);

@@ -48,6 +48,12 @@ void TellManagerOfReload() {
   TellManager("RELOADING=1\nMONOTONIC_USEC=" + std::to_string(microseconds));
 }
 
+void TellManagerOfDrain(double seconds) {
+  constexpr double kToEnd = 30;  // to abort calls, to shut gRPC down, and to free models
+  TellManager(fmt::format("STOPPING=1\nSTATUS=drains for up to {} s\nEXTEND_TIMEOUT_USEC={:.0f}",
+                          seconds, 1e6 * (seconds + kToEnd)));
+}
+
 // $WATCHDOG_PID names the intended process, because children inherit both variables.
 void TellManagerOfLife() {
   static std::chrono::steady_clock::time_point next;

@@ -153,7 +153,9 @@ test('the unit of systemd stops as slowly as the pods, and may open enough', () 
   const unit = Object.fromEntries([...read('choreod.service.in').matchAll(/^([A-Za-z]+)=(.*)$/gm)].map(([, key, value]) => [key, value]));
   assert.ok(Number(unit.TimeoutStopSec) >= Number(setting('CHOREO_DRAIN_SECONDS')) + 10);
   assert.ok(Number(unit.LimitNOFILE) >= 65536);
-  assert.match(unit.ExecReload, /-HUP/);
+  const reloads = [...read('choreod.service.in').matchAll(/^ExecReload=(.*)$/gm)].map(([, command]) => command);
+  assert.equal(reloads[0], unit.ExecStart.replace(' --config', ' --check --config')); // a faulty file fails the reload
+  assert.match(reloads[1], /-HUP/);
   assert.equal(unit.Type, 'notify'); // ServeTest.TellsItsManagerHowFarItIs
   assert.match(unit.ExecStart, /\/choreod --config \/etc\/choreo\/choreod\.toml$/);
 });

@@ -334,14 +334,22 @@ TEST_F(ServeTest, TellsItsManagerHowFarItIs) {
   const Manager manager(folder_ / "notify");
   std::filesystem::create_directory(folder_ / "models");
   std::ofstream(folder_ / "models/a.safetensors").flush();
-  Start("--drain-seconds 1 --models '" + (folder_ / "models").string() + "'");
+  const std::string file = (folder_ / "choreod.toml").string();
+  std::ofstream(file) << "drain-seconds = 1\n";
+  Start("--config '" + file + "' --models '" + (folder_ / "models").string() + "'");
   EXPECT_THAT(manager.Hear(), testing::StartsWith("READY=1\nSTATUS=choreod listens on 127.0.0.1:"));
   AwaitListening();
   Send(SIGHUP);
   EXPECT_THAT(manager.Hear(), ContainsRegex("^RELOADING=1\nMONOTONIC_USEC=[0-9]+$"));
-  EXPECT_EQ(manager.Hear(), "READY=1");
+  EXPECT_THAT(manager.Hear(), testing::StartsWith("READY=1\nSTATUS=choreod listens on 127.0.0.1:"));
+  std::ofstream(file) << "drain-seconds = -1\n";
+  Send(SIGHUP);
+  EXPECT_THAT(manager.Hear(), testing::StartsWith("RELOADING=1\n"));
+  EXPECT_THAT(manager.Hear(),
+              testing::StartsWith("READY=1\nSTATUS=" + file + ":1: --drain-seconds"));
   Send(SIGTERM);
-  EXPECT_THAT(manager.Hear(), testing::StartsWith("STOPPING=1\n"));
+  EXPECT_EQ(manager.Hear(),
+            "STOPPING=1\nSTATUS=drains for up to 1 s\nEXTEND_TIMEOUT_USEC=31000000");
   EXPECT_EQ(End().code, 0);
 }
 
