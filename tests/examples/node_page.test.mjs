@@ -3,7 +3,6 @@ import assert from 'node:assert/strict';
 import { EventEmitter, once } from 'node:events';
 import { spawn } from 'node:child_process';
 import { mkdir, mkdtemp, readFile, rm, symlink, writeFile } from 'node:fs/promises';
-import { createServer } from 'node:http';
 import { connect } from 'node:net';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
@@ -14,27 +13,11 @@ import { clicks, pcm, song, wav } from '../../examples/node/music.js';
 import { connectDance } from '../../client/node/page/index.js';
 import { serveDance } from '../../client/node/serve/index.js';
 import { ChoreoClient, libraryPose } from '../../client/node/src/index.js';
+import { withBackEnd } from './back_end.mjs';
 import { withServer } from './servers.mjs';
 
 const server = process.env.CHOREO_SERVER;
 const silent = { seconds: 6, speed: 3, config: { seed: '7' } };
-
-/** A back end until `use({url, http, dance, client})` is done. */
-async function withBackEnd(begin, use, { servers = [server], ...options } = {}) {
-  const client = new ChoreoClient(servers);
-  const dance = serveDance(client, begin, options);
-  const http = createServer(async (request, response) => (await dance(request, response)) || response.writeHead(404).end());
-  http.listen(0, '127.0.0.1');
-  await once(http, 'listening');
-  try {
-    await use({ url: `http://127.0.0.1:${http.address().port}/dance`, http, dance, client });
-  } finally {
-    dance.close();
-    client.close();
-    http.close();
-    http.closeAllConnections();
-  }
-}
 
 /** A page's dance to its end: what it heard, and the place of each frame, in order. `each(dance, seconds that came)` acts on the way. */
 async function watch(url, each = () => {}) {

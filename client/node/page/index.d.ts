@@ -63,10 +63,11 @@ export interface PageDance {
   at(seconds: number): Shown;
   /**
    * The same at an <audio> element's time, or by a clock of its own: it starts when some poses are there, and waits where they are late. Call it for
-   * each picture. Whoever pauses the element does so for good. Begin in a click: browsers play no sound before one.
+   * each picture. It tells the back end where the page plays, so a dance waits while you pause the element. It plays only what it has paused itself:
+   * an element that you pause stays paused until you play it. Begin in a click: browsers play no sound before one.
    */
   follow(audio?: { currentTime: number; readonly paused: boolean; readonly ended: boolean; play(): unknown; pause(): void }): Shown;
-  /** The earliest time that a new key can surely have. */
+  /** The earliest time for a new key: not settled, and a second from this page's keys that are still to come. */
   soon(): number;
   /**
    * Requests a key, at `soon()` if it has no time, and resolves to the request. The same id again moves the key. Rejects with a DanceError for what is

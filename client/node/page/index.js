@@ -3,10 +3,12 @@ import { requireOptions } from '../character/given.js';
 import { Player, smplPoses } from '../character/index.js';
 import { Clock } from './clock.js';
 import { eventsOf, Refused } from './events.js';
+import { PendingKeys } from './pending_keys.js';
+import { ToldClock } from './told_clock.js';
 
 const before = 0.7; // seconds of poses needed before the music continues
-const soonest = 2; // the least seconds from a request to its key
-const beyond = 1.2; // seconds after the newest frame: earlier ones are frozen, and music that waits falls behind
+const soonest = 2; // the least seconds from a request to its key: the back end settles one ahead, and the dancer needs time to get there
+const beyond = 1.2; // seconds after the newest frame: earlier ones are settled
 const kept = 1; // seconds of the past, for another character
 const names = ['headers', 'patience', 'fetch', 'onKey', 'onWarning', 'onMoved', 'onLost', 'onEnd'];
 
@@ -27,7 +29,9 @@ class PageDance {
   #worn; // {character, player, add(frames), end()}
   #holds = true; // the music waits for the dancer
   #clock; // for dances without music
-  #clicks = 0;
+  #newest = 0; // seconds: the end of what has come
+  #pending = new PendingKeys();
+  #told = new ToldClock((clock) => this.#send('POST', '/clock', JSON.stringify(clock)));
 
   constructor(url, options) {
     this.#url = String(url);
@@ -66,22 +70,29 @@ class PageDance {
       this.#holds = false;
       if (!audio.ended) Promise.resolve(audio.play()).catch((error) => this.#options.onWarning?.({ message: error.message }));
     }
+    if (this.#header && !this.over) this.#told.follow(audio);
     return shown;
   }
 
   soon() {
-    const ahead = this.#worn?.player.ahead(this.#seconds) ?? 0;
-    return this.#seconds + Math.max(soonest, ahead + beyond);
+    return this.#pending.after(Math.max(this.#seconds + soonest, this.#newest + beyond));
   }
 
   async setKey(key) {
-    const said = { id: `key ${++this.#clicks}`, time: this.soon(), ...key };
-    await this.#send('POST', '/keys', JSON.stringify(said));
+    const said = { id: this.#pending.newId(), time: this.soon(), ...key };
+    this.#pending.add(said);
+    try {
+      await this.#send('POST', '/keys', JSON.stringify(said));
+    } catch (error) {
+      this.#pending.delete(said.id);
+      throw error;
+    }
     return said;
   }
 
   async removeKey(id) {
     await this.#send('DELETE', `/keys/${encodeURIComponent(id)}`);
+    this.#pending.delete(id);
   }
 
   async #send(method, path, body) {
@@ -100,7 +111,7 @@ class PageDance {
       for await (const [event, data] of eventsOf(this.#url, { ...this.#options, signal: this.#stop.signal })) {
         if (event === 'dance') begin((this.#header = data));
         else if (event === 'frames') this.#take(data);
-        else if (event === 'key') onKey?.(data);
+        else if (event === 'key') (this.#pending.delete(data.id), onKey?.(data));
         else if (event === 'warning') onWarning?.(data);
         else if (event === 'moved') onMoved?.(data);
         else if (event === 'failed') throw Object.assign(new Error(data.message), { code: data.code, retryAfter: data.retry_after });
@@ -112,6 +123,7 @@ class PageDance {
       failure = error;
     }
     this.over = true;
+    this.#told.stop();
     this.#worn?.end();
     if (failure) fail(failure);
     if (!this.#stop.signal.aborted) onEnd?.(failure);
@@ -121,6 +133,7 @@ class PageDance {
     const frames = { first_frame: first, count: places.length / 3, root_positions: places, rotations: turns };
     const past = (this.#seconds - kept) * this.#header.frame_rate;
     this.#recent = [...this.#recent.filter(({ first_frame }) => first_frame > past), frames];
+    this.#newest = (first + frames.count) / this.#header.frame_rate;
     this.#worn?.add(frames);
   }
 }

@@ -15,7 +15,7 @@ export interface DanceOrder {
   config?: DanceConfig;
   /** Said before the dance begins: the keys of readKeys(), controls. */
   keys?: StreamDanceRequest[];
-  /** Times as fast as it is shown; default 1. */
+  /** Times as fast as time, until the page tells where it plays, which follow() does; default 1. */
   speed?: number;
 }
 
@@ -46,6 +46,8 @@ export interface DanceHandler {
    * - `POST /dance/ID/keys`: a key, as in a key file (docs/poses.md), {id, time, pose: 'kick'}, whose place may be 'here'; or {id, time, rotations: {head: [0, 0.4, 0]}}, which
    *   sets these joints alone. 202; a key that comes too late, or near another one, is refused by an event. The same id again moves a key.
    * - `DELETE /dance/ID/keys/KEY`: takes it back.
+   * - `POST /dance/ID/clock`: {time, paused}, where the page plays. 202. Frames up to a second later are settled. A page that never tells it plays
+   *   from its first frame on.
    * - `GET /dance/skeleton`: the body that dances.
    */
   (request: IncomingMessage & { body?: unknown }, response: ServerResponse): Promise<boolean>;
@@ -55,8 +57,8 @@ export interface DanceHandler {
 
 /**
  * Serves the dances of `client` to pages. `begin` says what to dance for a page that asks; an error of its own with a `status`, 401 say, is answered
- * with that. A dance whose server is lost goes on at another one of the client's, and its page misses no frame. Frames settle half a second before
- * their time, so that keys may come until shortly before. A page that is closed ends its dance.
+ * with that. A dance whose server is lost goes on at another one of the client's, and its page misses no frame. Frames settle a second before
+ * the page shows them, so that keys may come until shortly before. A page that is closed ends its dance.
  */
 export function serveDance(
   client: ChoreoClient,

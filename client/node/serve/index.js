@@ -62,6 +62,7 @@ class DanceServer {
     if (asked === 'GET ') await this.#watch(url, request, response);
     else if (asked === 'GET :id' && id === 'skeleton') await this.#tellSkeleton(response);
     else if (asked === 'POST :id/keys') await this.#sayKey(id, request, response);
+    else if (asked === 'POST :id/clock') await this.#hearClock(id, request, response);
     else if (asked === 'DELETE :id/keys/:key') this.#say(id, response, [{ remove_keyframe: { id: key } }]);
     else return false;
     return true;
@@ -84,6 +85,12 @@ class DanceServer {
     const warnings = []; // sent once the key is accepted
     this.#say(id, response, editsOf(body, dance.model.skeleton, dance.here, (...warning) => warnings.push(warning)));
     for (const warning of warnings) dance.warn(...warning);
+  }
+
+  async #hearClock(id, request, response) {
+    const body = await bodyOf(request);
+    this.#find(id).hearClock(body);
+    response.writeHead(202).end();
   }
 
   #say(id, response, requests) {

@@ -1,11 +1,12 @@
-// A dance for a page, paced by the clock. Keeps its server-sent events for pages that reconnect.
+// A dance for a page, paced by the page's clock. Keeps its server-sent events for pages that reconnect.
 import { randomUUID } from 'node:crypto';
 import { EventEmitter, once } from 'node:events';
 import { setTimeout as sleep } from 'node:timers/promises';
 import { invalid } from '../src/error.js';
+import { PageClock } from './page_clock.js';
 import { Refusal } from './refusal.js';
 
-const settled = 0.5; // seconds before its time at which a frame is final and sent
+const lead = 1; // seconds beyond the page's clock up to which frames are final and sent; pages need 0.7 to play
 const tick = 0.1; // seconds
 const pieceOfFile = 1 << 20; // bytes
 const mostWaiting = 1000; // keys: the most that a dance has
@@ -31,6 +32,7 @@ export class ServedDance {
   #frames = 0; // sent
   #taken = 0; // frames received by the page that has most
   #shownRate = Infinity; // frames per second
+  #clock;
   #news = new EventEmitter().setMaxListeners(0);
 
   /** `order`: a DanceOrder of index.d.ts. */
@@ -38,6 +40,7 @@ export class ServedDance {
     this.#client = client;
     this.#order = order;
     this.#options = options;
+    this.#clock = new PageClock(order.speed ?? 1);
     this.#dance();
   }
 
@@ -51,6 +54,11 @@ export class ServedDance {
     const { seconds } = this.#order;
     if (time >= seconds) throw invalid('time', `${time} s is not before the end of the dance, ${seconds} s`);
     this.#edits.push(...requests);
+  }
+
+  /** Hears where its page plays, {time, paused}. */
+  hearClock(body) {
+    this.#clock.tell(body);
   }
 
   warn(id, message) {
@@ -78,6 +86,7 @@ export class ServedDance {
         ++at;
         if (!response.write(one.text)) await once(response, 'drain', { signal });
         this.#taken = Math.max(this.#taken, one.frames);
+        if (one.frames > 0) this.#clock.start();
       }
     } catch (error) {
       if (!signal.aborted) throw error;
@@ -144,18 +153,17 @@ export class ServedDance {
     if (summary) this.#tell('over', { frames: Number(summary.report.frames) });
   }
 
-  /** The dance's requests, each when its clock reaches it. */
+  /** The dance's requests, each when the page's clock comes near it. */
   async *#requests() {
     const { config = {}, seconds, music, keys = [], speed = 1 } = this.#order;
     const isFile = ArrayBuffer.isView(music) || music instanceof ArrayBuffer;
     const rate = this.model.model_frame_rate;
-    const begun = performance.now();
-    const elapsed = () => (speed * (performance.now() - begun)) / 1000;
     let granted = 0;
     const step = () => {
       // A page that does not keep up is waited for.
       const waits = this.watchers > 0 && this.#frames - this.#taken > this.#options.behind * this.#shownRate;
-      if (!waits) granted = Math.min(Math.round((elapsed() + settled) * rate), Math.round(seconds * rate));
+      // What is settled stays so when a page goes back.
+      if (!waits) granted = Math.max(granted, Math.min(Math.round((this.#clock.time + lead) * rate), Math.round(seconds * rate)));
       return [...this.#edits.splice(0), { generate_until: { frame: granted } }];
     };
     yield {
