@@ -134,3 +134,13 @@ test('a dance that is longer than its song goes on to its end', () =>
         while (!page.over) await sleep(20);
       }),
   ));
+
+test("a page that wears nothing shows SMPL's own joints", () =>
+  withBackEnd(order, async ({ url }) => {
+    const page = connectDance(url);
+    const { skeleton } = await page.begun;
+    let shown;
+    while ((shown = page.follow()).state !== 'playing') await sleep(10);
+    assert.equal(shown.pose.turns.length, 4 * skeleton.joint_names.length);
+    page.close();
+  }));

@@ -55,8 +55,8 @@ export interface PageDance {
   /** No more frames will come. */
   readonly over: boolean;
   /**
-   * From now on `at` gives poses of this character, made with the header's skeleton; without one those of SMPL's own joints. It may change while the
-   * dance goes on. Throws before the dance has begun.
+   * From now on `at` gives poses of this character, made with the header's skeleton; without one, or without this call, those of SMPL's own joints.
+   * It may change while the dance goes on. Throws before the dance has begun.
    */
   wear(character?: Character): void;
   /** What to show at a time of the dance: character.show(dance.at(seconds).pose, objects). */

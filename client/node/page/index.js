@@ -57,6 +57,7 @@ class PageDance {
 
   at(seconds) {
     this.#seconds = seconds;
+    if (this.#header && !this.#worn) this.wear();
     return this.#worn ? this.#worn.player.at(seconds) : { state: 'waiting', ahead: 0 };
   }
 
