@@ -250,9 +250,9 @@ test('what a page may not have is refused, with a status', () =>
       assert.equal(joints.length, 24);
       const page = connectDance(url);
       await page.begun;
-      await assert.rejects(page.setKey({ pose: 'kik' }), /^Error: keyframes\[0\]\.pose: 'kik' is not a pose of the library; .*kick/);
+      await assert.rejects(page.setKey({ pose: 'kik' }), /^DanceError: keyframes\[0\]\.pose: 'kik' is not a pose of the library; .*kick/);
       assert.deepEqual(await refused(page.setKey({ pose: 'kik' })), [400, 'INVALID_ARGUMENT', 'keyframes[0]']);
-      await assert.rejects(page.setKey({ rotations: { tail: [0, 0, 1] } }), /^Error: rotations\.tail: no joint/);
+      await assert.rejects(page.setKey({ rotations: { tail: [0, 0, 1] } }), /^DanceError: rotations\.tail: no joint/);
       page.close();
       assert.throws(() => connectDance(url, { onKeys: () => {} }), /^TypeError: options\.onKeys: is none of headers, /);
     },

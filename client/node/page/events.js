@@ -1,15 +1,9 @@
 // Reads a back end's events and reconnects when a connection is lost. (EventSource sends no headers and does not notice a vanished machine.)
 
+import { DanceError } from './dance_error.js';
+
 const untilBack = 500; // milliseconds until it reconnects
 const silence = 15000; // milliseconds without a sign of life; a back end sends one every five seconds
-
-/** A back end's refusal, with its HTTP `status` and, if any, gRPC's `code`. */
-export class Refused extends Error {
-  static async by(response) {
-    const error = new Refused((await response.text()).trim() || `status ${response.status}`);
-    return Object.assign(error, { status: response.status, code: response.headers.get('choreo-code') ?? undefined });
-  }
-}
 
 /**
  * Yields [event, data] of a URL's server-sent events. When a connection is lost it calls `onLost(error)` and requests the rest with Last-Event-ID.
@@ -33,7 +27,7 @@ export async function* eventsOf(url, { headers, signal, patience, onLost, fetch 
       const again = last === undefined ? {} : { 'Last-Event-ID': last };
       const response = await fetch(url, { headers: { ...headers, ...again }, signal: cut.signal, cache: 'no-store' });
       if (response.status === 204) return;
-      if (!response.ok) throw await Refused.by(response);
+      if (!response.ok) throw await DanceError.by(response);
       for await (const [id, event, data] of linesOf(response.body, wait)) {
         since = undefined;
         last = id;
@@ -43,8 +37,8 @@ export async function* eventsOf(url, { headers, signal, patience, onLost, fetch 
     } catch (error) {
       signal.throwIfAborted();
       // A dance that has not begun is not requested twice.
-      if (error instanceof Refused || last === undefined) throw error;
-      if (since === undefined) onLost?.(error);
+      if (error.status || last === undefined) throw error;
+      if (since === undefined) onLost?.(DanceError.of(error));
       since ??= Date.now();
       if (Date.now() - since > 1000 * patience) throw error;
     } finally {

@@ -23,12 +23,16 @@ export interface KeyNews {
   refused?: string;
 }
 
-/** An error of a back end that refuses a dance or a key, with its HTTP `status` (such as 401), or of a dance that fails. `code`: gRPC's, if any. */
-export interface DanceError extends Error {
-  status?: number;
-  code?: string;
+/**
+ * What goes wrong, with the HTTP `status` of a back end that refuses (such as 401), or a `code` of gRPC: UNAVAILABLE where no connection is had,
+ * NOT_FOUND for a dance that the back end has forgotten, FAILED_PRECONDITION for a key after the end, CANCELLED after close().
+ */
+export class DanceError extends Error {
+  private constructor();
+  readonly status?: number;
+  readonly code?: string;
   /** Try again after so many seconds, where that may help. */
-  retryAfter?: number;
+  readonly retryAfter?: number;
 }
 
 export interface ConnectOptions {
@@ -44,7 +48,7 @@ export interface ConnectOptions {
   /** The back end's server was lost; another one goes on from this frame, and none is missing. */
   onMoved?: (moved: { frame: number }) => void;
   /** The connection is lost; the rest is asked for. */
-  onLost?: (error: Error) => void;
+  onLost?: (error: DanceError) => void;
   /** All has come, or nothing more will, because of `error`. */
   onEnd?: (error?: DanceError) => void;
 }

@@ -2,7 +2,8 @@
 import { requireOptions } from '../character/given.js';
 import { Player, smplPoses } from '../character/index.js';
 import { Clock } from './clock.js';
-import { eventsOf, Refused } from './events.js';
+import { DanceError } from './dance_error.js';
+import { eventsOf } from './events.js';
 import { PendingKeys } from './pending_keys.js';
 import { ToldClock } from './told_clock.js';
 
@@ -11,6 +12,8 @@ const soonest = 2; // the least seconds from a request to its key: the back end 
 const beyond = 1.2; // seconds after the newest frame: earlier ones are settled
 const kept = 1; // seconds of the past, for another character
 const names = ['headers', 'patience', 'fetch', 'onKey', 'onWarning', 'onMoved', 'onLost', 'onEnd'];
+
+export { DanceError };
 
 export function connectDance(url, options = {}) {
   requireOptions(options, names);
@@ -41,11 +44,11 @@ class PageDance {
   }
 
   close() {
-    this.#stop.abort(new Error('the dance is closed'));
+    this.#stop.abort(new DanceError('the dance is closed', { code: 'CANCELLED' }));
   }
 
   wear(character) {
-    if (!this.#header) throw new Error('the dance has not begun: await its begun');
+    if (!this.#header) throw new DanceError('the dance has not begun: await its begun', { code: 'FAILED_PRECONDITION' });
     const player = new Player(this.#header);
     const dance = character?.dance(this.#header) ?? { add: (frames) => smplPoses(frames, this.#header.skeleton), end: () => [] };
     const add = (frames) => player.add(dance.add(frames));
@@ -99,9 +102,12 @@ class PageDance {
   async #send(method, path, body) {
     const { headers, fetch = globalThis.fetch } = this.#options;
     const { id } = await this.begun;
+    if (this.#stop.signal.aborted) throw this.#stop.signal.reason;
+    if (this.over) throw new DanceError('the dance is over', { code: 'FAILED_PRECONDITION' });
     const [place] = this.#url.split(/[?#]/);
-    const answer = await fetch(`${place}/${id}${path}`, { method, body, headers: { ...headers, 'Content-Type': 'application/json' } });
-    if (!answer.ok) throw await Refused.by(answer);
+    const asked = { method, body, headers: { ...headers, 'Content-Type': 'application/json' } };
+    const answer = await fetch(`${place}/${id}${path}`, asked).catch((error) => Promise.reject(DanceError.of(error)));
+    if (!answer.ok) throw await DanceError.by(answer);
     await answer.text(); // empty; browsers show a request whose answer nobody reads as cancelled
   }
 
@@ -115,13 +121,13 @@ class PageDance {
         else if (event === 'key') (this.#pending.delete(data.id), onKey?.(data));
         else if (event === 'warning') onWarning?.(data);
         else if (event === 'moved') onMoved?.(data);
-        else if (event === 'failed') throw Object.assign(new Error(data.message), { code: data.code, retryAfter: data.retry_after });
+        else if (event === 'failed') throw new DanceError(data.message, { code: data.code, retryAfter: data.retry_after });
         else if (event === 'over') this.over = true;
         if (this.over) break;
       }
-      if (!this.over) throw new Error('the dance is gone');
+      if (!this.over) throw new DanceError('the dance is gone', { code: 'NOT_FOUND' });
     } catch (error) {
-      failure = error;
+      failure = DanceError.of(error);
     }
     this.over = true;
     this.#told.stop();
