@@ -38,3 +38,28 @@ test("all that a page's calls throw are DanceErrors, with a status or a code", (
     const gone = new Promise((onEnd) => connectDance(url, { onEnd, onLost: () => dance.close() }).begun.then(() => http.closeAllConnections()));
     assert.deepEqual(await failure(gone.then((error) => Promise.reject(error))), [undefined, 'NOT_FOUND']);
   }));
+
+test('credentials are the business of the back end, which hears all, and not of the page', async () => {
+  const folder = await mkdtemp(join(tmpdir(), 'choreo-'));
+  const [tokens, tokenFile] = [join(folder, 'tokens'), join(folder, 'token')];
+  try {
+    await writeFile(tokens, `${'0'.repeat(64)} nobody\n`);
+    await writeFile(tokenFile, 'wrong');
+    await withServer(['--tokens', tokens], async ({ address }) => {
+      const heard = [];
+      for (const clientOptions of [{}, { token: 'wrong' }, { tokenFile }, { tokenFile: join(folder, 'none') }]) {
+        const ask = async ({ url }) => {
+          const error = await connectDance(url).begun.then(assert.fail, (error) => error);
+          assert.deepEqual([error.message, error.code], ['this went wrong here', 'INTERNAL']);
+          const skeleton = await fetch(`${url}/skeleton`);
+          assert.deepEqual([skeleton.status, await skeleton.text()], [500, 'this went wrong here\n']);
+        };
+        await withBackEnd(order, ask, { servers: [address], clientOptions, onFailed: (error) => heard.push(error) });
+      }
+      assert.ok(heard.every(({ message }) => /token/.test(message)), `${heard}`);
+      assert.equal(heard.length, 8);
+    });
+  } finally {
+    await rm(folder, { recursive: true });
+  }
+});

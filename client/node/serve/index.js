@@ -46,10 +46,10 @@ class DanceServer {
     try {
       return await this.#route(url, request, response);
     } catch (error) {
-      const { status, message, code } = this.#told(error, (refusal) => refusal.status >= 500);
+      const { status, message, code, retryAfter } = this.#told(error, (refusal) => refusal.status >= 500);
       if (response.headersSent) response.destroy();
       else {
-        const named = /^[A-Z_]+$/.test(code) ? { 'Choreo-Code': code } : {};
+        const named = { ...(/^[A-Z_]+$/.test(code) && { 'Choreo-Code': code }), ...(retryAfter > 0 && { 'Retry-After': Math.ceil(retryAfter) }) };
         response.writeHead(status, { 'Content-Type': 'text/plain; charset=utf-8', ...named }).end(`${message}\n`);
       }
       return true;

@@ -4,7 +4,7 @@ import { EventEmitter, once } from 'node:events';
 import { setTimeout as sleep } from 'node:timers/promises';
 import { invalid } from '../src/error.js';
 import { PageClock } from './page_clock.js';
-import { Refusal } from './refusal.js';
+import { Refusal, refusalOf } from './refusal.js';
 
 const lead = 1; // seconds beyond the page's clock up to which frames are final and sent; pages need 0.7 to play
 const tick = 0.1; // seconds
@@ -120,8 +120,8 @@ export class ServedDance {
       for await (const answer of this.#client.streamDance(this.#requests(), { signal, onResume, onRejected })) this.#take(answer);
     } catch (error) {
       if (!signal.aborted) {
-        const message = error.code === 'UNAVAILABLE' ? 'no server dances now' : error.message; // gRPC's message names servers
-        this.#tell('failed', { code: error.code, message, retry_after: error.retryAfter });
+        const { code, message, retryAfter } = refusalOf(error);
+        this.#tell('failed', { code, message, retry_after: retryAfter });
         this.#options.onFailed(error);
       }
     } finally {

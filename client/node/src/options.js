@@ -21,6 +21,9 @@ const defaults = {
   retry: 10,
   firstBackoff: 0.1,
 };
+/** Whether an error is about a client's addresses or options, such as its token. */
+export const isOfOptions = ({ violations: [first] = [] }) => first?.field === 'addresses' || Object.hasOwn(defaults, first?.field ?? '');
+
 const leastSilence = 2; // seconds
 const mostPort = 65535;
 const mostTokenBytes = 4096; // gRPC's headers have 8 KiB in all
