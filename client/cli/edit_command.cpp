@@ -199,7 +199,8 @@ void AddEditCommand(CLI::App& program) {
   AddRepeated(
       *command, "-k,--key", options->keys,
       "A key pose to set: a pose of the library (kick, ...), where the dancer is at that time; a "
-      "key file with one pose; KEYS.json@ID; or MOTION@SECOND. Repeatable; each needs its --at.");
+      "key file with one pose; KEYS.json@ID; MOTION@SECOND; or a key of --report, whose pose is "
+      "set where the dancer is. Repeatable; each needs its --at.");
   AddRepeated(*command, "--at", options->at,
               "TIME of the key in the dance: a second, or a count (9c).")
       ->check(TimeOrCount());

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <iostream>
 #include <map>
 #include <sstream>
@@ -12,6 +13,7 @@
 #include "client/authoring/dance_keys.h"
 #include "client/authoring/key_faults.h"
 #include "client/authoring/key_file.h"
+#include "client/authoring/pose_library.h"
 #include "client/authoring/pose_source.h"
 #include "client/cli/dance_file.h"
 #include "client/cli/report.h"
@@ -55,7 +57,7 @@ EditSession::EditSession(const EditOptions& options, const Connection& connectio
 }
 
 void EditSession::SetKey(const std::string& source, double at_s) {
-  const authoring::NamedPose named = authoring::ReadPose(source, edit_.model.skeleton, counts_);
+  const authoring::NamedPose named = ReadKeyPose(source);
   // The library's poses are known to bend correctly.
   if (named.has_place && !options_.allow_bends)
     authoring::RefuseBends({{named.key}, {source}}, edit_.model.skeleton);
@@ -77,6 +79,28 @@ void EditSession::SetKey(const std::string& source, double at_s) {
   const std::vector<client::Warning> ended = MakeRoom("--at", &edit);
   Set("--at", at_s, std::move(edit));
   Keep(ended);
+}
+
+authoring::NamedPose EditSession::ReadKeyPose(const std::string& source) const {
+  const bool is_key = std::ranges::any_of(keys_, [&](const auto& key) {
+    return source == key.second.id || source.starts_with(key.second.id + '@');
+  });
+  if (!is_key || std::filesystem::exists(authoring::FileOf(source)) ||
+      std::ranges::find(authoring::PoseLibrary(), source, &authoring::LibraryPose::id) !=
+          authoring::PoseLibrary().end())
+    return authoring::ReadPose(source, edit_.model.skeleton, counts_);
+  const std::vector<int64_t> frames = FindKey(keys_, source, edit_.model.fps, "--key", counts_);
+  const GroundFrame there = Here(frames.front());
+  authoring::NamedPose named{.has_place = false};
+  for (client::KeyPose& key : KeysAsDanced(frames.front(), frames.back() + 1)) {
+    key.time_s = Seconds(*key.frame);
+    key.frame.reset();
+    key.pose = there.ToLocal(key.pose);
+    (named.key.id.empty() ? named.key : named.held.emplace_back()) = std::move(key);
+  }
+  std::cerr << "note: \"" << named.key.id << "\" is the report's key at "
+            << times_.Of(frames.front()) << "; its pose is set where the dancer is\n";
+  return named;
 }
 
 void EditSession::HoldAsAsked(const std::string& source, double at_s, client::KeyEdit* edit) {

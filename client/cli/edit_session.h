@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "client/authoring/counts.h"
+#include "client/authoring/pose_source.h"
 #include "client/cli/connection.h"
 #include "client/cli/edit_options.h"
 #include "client/cli/time_format.h"
@@ -84,6 +85,9 @@ class EditSession {
   std::vector<client::KeyEdit> Phrase(const char* field, double from_s, double until_s) const;
   /// Sets the keys of a phrase at their frames, where the dance must have no other keys.
   void SetAll(const char* field, std::span<client::KeyEdit> phrase);
+  /// Reads a pose as --key names it: that of a key of the report, around the origin, or a source
+  /// for ReadPose. A pose of the library goes before a key of the same name, as does a file.
+  authoring::NamedPose ReadKeyPose(const std::string& source) const;
   /// Holds a key at second `at_s` for the time of --hold or, without it, as long as it is held now.
   /// `source`: the key's name in errors.
   void HoldAsAsked(const std::string& source, double at_s, client::KeyEdit* edit);

@@ -48,6 +48,28 @@ TEST_F(EditTest, MovedKeyIsOnlyAtItsNewSecond) {
   EXPECT_EQ(keys[3]["id"], id);
 }
 
+TEST_F(EditTest, AKeyOfTheReportComesAgain) {
+  std::ofstream(folder_ / "keys.json") << R"({"keyframes": [
+    {"id": "mine", "time": 2, "pose": "dab", "place": [1, 0], "facing": 90, "hold": 1}]})";
+  ASSERT_EQ(Choreo("dance --seconds 9 --keyframes " + At("keys.json") + Server() + "-o " +
+                   At("dance.npz") + " --report " + At("report.json"))
+                .code,
+            0);
+  for (const std::string id : {"mine", "mine@2"}) {
+    const Outcome outcome = Edit("--key " + id + " --at 6 --report " + At("report.json") +
+                                 " --new-report " + At("new.json") + " -o " + At("new.npz"));
+    ASSERT_EQ(outcome.code, 0) << outcome.said;
+    EXPECT_THAT(outcome.said, HasSubstr("note: \"mine\" is the report's key at 2 s"));
+    const Motion motion = Read("new.npz");
+    const auto local = [&](size_t frame) {
+      return GroundFrame::Of(motion.frames[frame]).ToLocal(motion.frames[frame]);
+    };
+    for (const size_t held : {0, 30})
+      EXPECT_LE(ComparePoses(Body(), local(180 + held), local(60)).position_m, 0.002) << held;
+    EXPECT_EQ(ReadJson(folder_ / "new.json")["keyframes"].back()["holds"], "mine");
+  }
+}
+
 TEST_F(EditTest, ANewKeyStandsWhereItIsPut) {
   ASSERT_EQ(Choreo("pose --from dab --set left_elbow=90 --out " + At("own.json")).code, 0);
   for (const std::string& key : {At("own.json"), std::string("dab")}) {
