@@ -88,7 +88,9 @@ Formed KeepApart(const std::vector<Dancer>& dancers, double apart, const Skeleto
     bodies.emplace_back(skeleton, (*dances)[i].motion);
     places.emplace_back(dancers[i].place.x(), 0, dancers[i].place.y());
   }
-  Formed formed{.factor = WidenFormation(bodies, places, apart)};
+  Formed formed;
+  if (apart > 0) formed.factor = WidenFormation(bodies, places, apart);
+  if (formed.factor > 1) formed.asked = FindNearest(bodies, MovesOf(places, 1));
   const std::vector<Eigen::Vector3d> moved = MovesOf(places, formed.factor);
   for (size_t i = 0; i < dances->size(); ++i) {
     for (Pose& pose : (*dances)[i].motion.frames) pose.root_position += moved[i];

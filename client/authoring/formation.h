@@ -48,9 +48,11 @@ client::FinishedDance OnStage(const Skeleton& skeleton, const Dancer& dancer,
 struct Formed {
   double factor = 1;  ///< by which the dancers' places were spread about their middle
   std::optional<NearestPair> nearest = {};  ///< none for a single dancer
+  std::optional<NearestPair> asked = {};    ///< at the places asked for, if they were spread
 };
 
-/// Moves dancers on stage apart if they would come nearer to each other than `apart`, metres.
+/// Moves dancers on stage apart if they would come nearer to each other than `apart`, metres. With
+/// 0 they stay at their places.
 Formed KeepApart(const std::vector<Dancer>& dancers, double apart, const Skeleton& skeleton,
                  std::vector<client::FinishedDance>* dances);
 

@@ -118,17 +118,28 @@ ControlRequest OnStage(ControlRequest controls, const authoring::Dancer& dancer,
 /// Moves dancers apart if they would come too near, and prints how near they are.
 void SeparateDancers(const authoring::Dancers& stage, const Skeleton& skeleton,
                      std::vector<client::FinishedDance>* dances) {
-  const auto [factor, nearest] = authoring::KeepApart(stage.dancers, stage.apart, skeleton, dances);
+  const auto [factor, nearest, asked] =
+      authoring::KeepApart(stage.dancers, stage.apart, skeleton, dances);
   if (!nearest) return;
+  const auto who = [&](const authoring::NearestPair& pair) {
+    return stage.dancers[pair.one].id + " and " + stage.dancers[pair.other].id;
+  };
+  const auto when = [&](const authoring::NearestPair& pair) {
+    const double fps = dances->front().motion.fps;
+    return Rounded(static_cast<double>(pair.distance.frame) / fps) + " s";
+  };
   std::cout << "least distance between bodies: " << Rounded(nearest->distance.metres) << " m, "
-            << stage.dancers[nearest->one].id << " and " << stage.dancers[nearest->other].id
-            << " at "
-            << Rounded(static_cast<double>(nearest->distance.frame) / dances->front().motion.fps)
-            << " s\n";
-  if (factor > 1) {
+            << who(*nearest) << " at " << when(*nearest) << '\n';
+  if (asked) {
     std::cerr << "note: places are " << Rounded(factor)
               << " times as far from their middle as requested, so that bodies stay "
-              << Rounded(stage.apart) << " m apart\n";
+              << Rounded(stage.apart) << " m apart: " << who(*asked) << " would come to "
+              << Rounded(asked->distance.metres) << " m at " << when(*asked) << '\n';
+  }
+  if (nearest->distance.metres < 0) {
+    std::cerr << "warning: " << who(*nearest) << " reach " << Rounded(-nearest->distance.metres)
+              << " m into each other at " << when(*nearest)
+              << ": \"apart\": 0 keeps their places\n";
   }
 }
 

@@ -96,8 +96,11 @@ TEST_F(DancersTest, MirroredInCanonAndApart) {
   ASSERT_TRUE(
       std::regex_search(text, said, std::regex("least distance between bodies: ([0-9.]+)")));
   EXPECT_NEAR(std::stod(said[1]), least, 0.001);
-  EXPECT_THAT(text,
-              HasSubstr(" times as far from their middle as requested, so that bodies stay 0.2 m"));
+  EXPECT_TRUE(std::regex_search(
+      text, std::regex("note: places are [0-9.]+ times as far from their middle as requested, so "
+                       "that bodies stay 0.2 m apart: [a-z]+ and [a-z]+ would come to -?[0-9.]+ m "
+                       "at [0-9.]+ s\n")))
+      << text;
 
   // Mirroring is about the dancer's place.
   const auto own = [](const Motion& motion, size_t frame) {
@@ -122,6 +125,20 @@ TEST_F(DancersTest, MirroredInCanonAndApart) {
   const auto later = ReadJson(folder_ / "stage.cy.json")["keyframes"];
   EXPECT_EQ(later[1]["frame"], keys[1]["frame"].get<size_t>() + late[0]);
   EXPECT_LE(later.size(), keys.size());
+}
+
+TEST_F(DancersTest, StayAtTheirPlacesIfNoDistanceIsAsked) {
+  Write(R"({"id": "ada", "place": [0, 0]}, {"id": "ben", "place": [0.3, 0]})", R"(, "apart": 0)");
+  const Outcome outcome = DanceAll();
+  ASSERT_EQ(outcome.code, 0) << outcome.said;
+  EXPECT_TRUE(std::regex_search(outcome.said,
+                                std::regex("warning: ada and ben reach [0-9.]+ m into each other "
+                                           "at [0-9.]+ s: \"apart\": 0 keeps their places\n")))
+      << outcome.said;
+  EXPECT_THAT(outcome.said, Not(HasSubstr("note: places are")));
+  const Eigen::Vector3d way =
+      Read("stage.ben.npz").frames[0].root_position - Read("stage.ada.npz").frames[0].root_position;
+  EXPECT_LT((way - Eigen::Vector3d(0.3, 0, 0)).norm(), 1e-5);
 }
 
 TEST_F(DancersTest, AreInOneFileAndOnOnePicture) {
