@@ -76,6 +76,10 @@ KeyPose ParseKey(const json& value, const std::string& field, const Skeleton& sk
 }
 
 double ParseSeconds(std::string_view text, const std::string& source) {
+  if (text.ends_with('c')) {
+    throw InvalidArgument(source, "\"" + std::string(text) +
+                                      "\" is a count, and a motion knows no song: say seconds");
+  }
   double seconds = 0;
   const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), seconds);
   if (code != std::errc() || end != text.data() + text.size() || !(seconds >= 0) ||

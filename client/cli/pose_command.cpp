@@ -191,6 +191,12 @@ void AddPoseCommand(CLI::App& program) {
   command->add_flag("--mirror", recipe.mirror, "Exchange left and right.");
   AddPlacing(*command, recipe.placing, "the pose");
   command->add_option("--at", options->at_s, "Second of the dance for the written key.")
+      ->check(CLI::Validator(
+          [](const std::string& text) -> std::string {
+            if (!text.ends_with('c')) return {};
+            return text + " is a count, and pose knows no song: say seconds";
+          },
+          ""))
       ->check(TimeInSeconds())
       ->capture_default_str();
   AddHands(*command, options->hands,

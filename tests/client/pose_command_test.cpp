@@ -10,6 +10,7 @@
 #include "client/authoring/pose_source.h"
 #include "client/cli/pose_recipe.h"
 #include "model/body/doll.h"
+#include "model/formats/motion_file.h"
 #include "model/motion/canonical.h"
 #include "model/motion/kinematics.h"
 #include "tests/client/run_choreo.h"
@@ -85,6 +86,14 @@ TEST_F(PoseCommandTest, PlacesAndTurnsThePose) {
   EXPECT_NEAR(Read("b.json").root_position.y(), kick.root_position.y(), 1e-3);
   EXPECT_THAT(Choreo("pose --place 1 --out " + At("c.json")).said,
               HasSubstr("--place: \"1\" is not X,Z, metres"));
+}
+
+TEST_F(PoseCommandTest, KnowsNoSongWhoseCountsItCouldRead) {
+  EXPECT_THAT(Choreo("pose --at 9c --out " + At("a.json")).said,
+              HasSubstr("--at: 9c is a count, and pose knows no song: say seconds"));
+  WriteMotion(folder_ / "d.npz", Body(), {.fps = 30, .frames = {RestPose(Body())}});
+  EXPECT_THAT(Choreo("pose --from " + At("d.npz") + "@16c").said,
+              HasSubstr("\"16c\" is a count, and a motion knows no song: say seconds"));
 }
 
 TEST_F(PoseCommandTest, WritesWhatHandsDoAndKeepsWhatAKeyFileSays) {
