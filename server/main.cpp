@@ -1,6 +1,7 @@
 #include <spdlog/spdlog.h>
 
 #include <string>
+#include <vector>
 
 #include "model/core/error.h"
 #include "model/core/threads.h"
@@ -39,8 +40,10 @@ ModelFolder::Loader MakeLoader(const ServerConfig& config) {
     workers.assign(static_cast<size_t>(count), devices.front());
   }
   return [&config, workers](const std::filesystem::path& path) {
+    std::vector<std::string> notes;
     Server::Samplers samplers =
-        MakeSamplers(path, workers, ParseEngineKind(config.engine), config.kernels);
+        MakeSamplers(path, workers, ParseEngineKind(config.engine), config.kernels, &notes);
+    for (const std::string& note : notes) spdlog::warn("{}: {}", path.string(), note);
     for (const auto& sampler : samplers) WarmUp(*sampler);
     const Sampler& sampler = *samplers.front();
     spdlog::info("loaded {}: model \"{}\", fingerprint {}, {} workers ({}, ...)", path.string(),

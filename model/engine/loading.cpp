@@ -1,7 +1,6 @@
 #include "model/engine/loading.h"
 
 #include <algorithm>
-#include <iostream>
 #include <nlohmann/json.hpp>
 #include <vector>
 
@@ -26,8 +25,19 @@ std::vector<KernelSet> KernelSetsHere(EngineKind kind) {
 
 }  // namespace
 
+KernelSet FirstIndependent(const std::vector<KernelSet>& sets, std::vector<std::string>* notes) {
+  for (const KernelSet& set : sets) {
+    if (RowsAreIndependent(*set.exact) && RowsAreIndependent(*set.products)) return set;
+    if (notes) {
+      notes->push_back("with " + std::string(set.products->name) +
+                       " a row's bits depend on its batch; slower kernels replace them");
+    }
+  }
+  throw Error(ErrorCode::kInternal, "", "no kernel of the packed engine keeps rows apart here");
+}
+
 std::optional<KernelSet> ChooseKernels(const EngineRequest& request) {
-  const auto& [device, kind, name] = request;
+  const auto& [device, kind, name, notes] = request;
   const bool on_cpu = device.kind == Device::Kind::kCpu;
   if (kind == EngineKind::kTorch || (kind == EngineKind::kAuto && !on_cpu)) return std::nullopt;
   if (!on_cpu)
@@ -37,16 +47,13 @@ std::optional<KernelSet> ChooseKernels(const EngineRequest& request) {
     throw InvalidArgument("engine", "packed-bf16 needs a CPU with AVX512-BF16, which this is not");
   }
   std::string known;
-  bool found = false;
+  std::vector<KernelSet> named;
   for (const KernelSet& set : here) {
     known += (known.empty() ? "" : ", ") + std::string(set.products->name);
-    if (!name.empty() && name != set.products->name) continue;
-    found = true;
-    if (RowsAreIndependent(*set.exact) && RowsAreIndependent(*set.products)) return set;
-    std::clog << "choreo: with " << set.products->name << " a row's bits depend on its batch\n";
+    if (name.empty() || name == set.products->name) named.push_back(set);
   }
-  if (!found) throw InvalidArgument("kernels", '"' + name + "\" is none of " + known);
-  throw Error(ErrorCode::kInternal, "", "no kernel of the packed engine keeps rows apart here");
+  if (named.empty()) throw InvalidArgument("kernels", '"' + name + "\" is none of " + known);
+  return FirstIndependent(named, notes);
 }
 
 std::string FingerprintOf(const std::string& name, const std::string& hash,

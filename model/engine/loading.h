@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "model/engine/engine_choice.h"
 #include "model/engine/packed/kernels.h"
@@ -25,7 +26,8 @@ using SamplerFactory = std::function<std::unique_ptr<Sampler>()>;
 struct EngineRequest {
   Device device;
   EngineKind kind = EngineKind::kAuto;
-  std::string kernels;  ///< a PackedKernels::name; empty: the fastest here
+  std::string kernels;                        ///< a PackedKernels::name; empty: the fastest here
+  std::vector<std::string>* notes = nullptr;  ///< of FirstIndependent
 };
 
 struct KernelSet {
@@ -34,6 +36,11 @@ struct KernelSet {
   /// same quality figures (docs/decisions.md, 32).
   const PackedKernels* products;
 };
+
+/// The first of these kernels that keep rows independent. `notes`, if given, receives a line for
+/// each that do not.
+KernelSet FirstIndependent(const std::vector<KernelSet>& sets,
+                           std::vector<std::string>* notes = nullptr);
 
 /// The code that computes a model; exactly one field is set.
 struct UsedKernels {

@@ -75,7 +75,7 @@ SamplerFactory Load(const std::filesystem::path& path, const EngineRequest& requ
   return HoldsContinuousFlow(content) ? LoadContinuousFlow(content, path.string(), request)
                                       : LoadPaperModel(content, path.string(), request);
 } catch (const Error& error) {
-  if (std::string_view(error.what()).find(path.string()) != std::string_view::npos) throw;
+  if (error.field().starts_with(path.string())) throw;
   throw Error(error.code(), path.string(), error.what());
 } catch (const std::bad_alloc&) {
   throw Error(ErrorCode::kResourceExhausted, path.string(), "there is no memory for it");
@@ -95,12 +95,13 @@ void SetTorchThreads(int threads) {
 
 std::vector<std::unique_ptr<Sampler>> MakeSamplers(const std::filesystem::path& path,
                                                    std::span<const Device> devices, EngineKind kind,
-                                                   const std::string& kernels) {
+                                                   const std::string& kernels,
+                                                   std::vector<std::string>* notes) {
   std::map<Device, SamplerFactory> loaded;
   std::vector<std::unique_ptr<Sampler>> samplers;
   for (const Device& device : devices) {
     const auto [here, is_new] = loaded.try_emplace(device);
-    if (is_new) here->second = Load(path, {device, kind, kernels});
+    if (is_new) here->second = Load(path, {device, kind, kernels, notes});
     samplers.push_back(here->second());
     CheckName(samplers.back()->model().name, path);
   }

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "model/core/error.h"
+#include "model/engine/loading.h"
 #include "model/engine/packed/kernels.h"
 #include "model/samplers/samplers.h"
 #include "tests/samplers/sampled.h"
@@ -31,6 +32,20 @@ TEST(KernelsTest, AreChosenByName) {
     EXPECT_EQ(Fingerprint(checkpoint, Bf16KernelsHere().front()->name),
               Fingerprint(checkpoint, "", EngineKind::kPackedBf16));
   }
+}
+
+TEST(KernelsTest, ThoseThatMixRowsAreNotedAndReplaced) {
+  const PackedKernels& right = *PackedKernelsHere().back();
+  PackedKernels mixes = right;
+  mixes.name = "mixes";
+  mixes.multiply = [](const PackedProduct& product) {
+    PackedKernelsHere().back()->multiply(product);
+    product.c[0] += static_cast<float>(product.rows);
+  };
+  std::vector<std::string> notes;
+  EXPECT_EQ(FirstIndependent({{&mixes, &mixes}, {&right, &right}}, &notes).products, &right);
+  EXPECT_THAT(notes,
+              testing::ElementsAre(HasSubstr("with mixes a row's bits depend on its batch")));
 }
 
 TEST(KernelsTest, UnavailableOnesAreNamed) {
