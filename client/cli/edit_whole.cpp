@@ -1,8 +1,11 @@
 #include "client/cli/edit_whole.h"
 
+#include <algorithm>
 #include <cmath>
 #include <iostream>
-#include <regex>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include "client/arrange.h"
 #include "client/cli/dance_file.h"
@@ -75,14 +78,7 @@ class Whole {
   void Mirror() {
     dance_ = client::Mirrored(skeleton_, dance_);
     known_.settings.controls = cli::Mirrored(std::move(known_.settings.controls));
-    static const std::regex kSide("left_|right_");
-    for (client::Warning& warning : known_.warnings) {
-      std::string message;
-      std::string rest = warning.message;
-      for (std::smatch side; std::regex_search(rest, side, kSide); rest = side.suffix())
-        message += side.prefix().str() + OtherSide(side.str());
-      warning.message = message + rest;
-    }
+    for (client::Warning& warning : known_.warnings) warning.message = Mirrored(warning.message);
   }
 
   /// Appends another dance.
@@ -126,6 +122,23 @@ class Whole {
   }
 
  private:
+  /// Exchanges the sides of joints and parts in a message, but not in the ids of keys.
+  std::string Mirrored(std::string_view message) const {
+    std::vector<std::string> kept, sides = {"left_", "right_"};
+    for (const auto& [frame, key] : known_.keys) kept.push_back('"' + key.id + '"');
+    std::string mirrored;
+    while (!message.empty()) {
+      const auto begins = [&](const std::string& word) { return message.starts_with(word); };
+      const auto id = std::ranges::find_if(kept, begins),
+                 side = std::ranges::find_if(sides, begins);
+      const size_t length = id != kept.end() ? id->size() : side != sides.end() ? side->size() : 1;
+      const std::string word(message.substr(0, length));
+      mirrored += id == kept.end() && side != sides.end() ? OtherSide(word) : word;
+      message.remove_prefix(length);
+    }
+    return mirrored;
+  }
+
   /// Frames at the model's rate.
   int64_t Frames() const {
     return static_cast<int64_t>(std::floor(Duration(dance_.motion) * known_.fps + kOnFrame)) + 1;

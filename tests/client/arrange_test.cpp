@@ -102,6 +102,19 @@ TEST_F(ArrangeTest, AMirrorImageIsOneOfBodyAndStage) {
   EXPECT_EQ(Keys("mirrored"), Keys("dance"));
 }
 
+TEST_F(ArrangeTest, AMirrorImageKeepsTheNamesOfKeys) {
+  nlohmann::json report = ReadJson(folder_ / "dance.json");
+  report["keyframes"][0]["id"] = "left_kick";
+  report["warnings"] = {
+      {{"frame", 9}, {"message", "key \"left_kick\": left_knee and right_knee bend"}}};
+  std::ofstream(folder_ / "named.json") << report;
+  std::filesystem::copy(folder_ / "dance.npz", folder_ / "named.npz");
+  const Outcome outcome = Edit("named", "--mirror", "mirrored");
+  ASSERT_EQ(outcome.code, 0) << outcome.said;
+  EXPECT_EQ(ReadJson(folder_ / "mirrored.json")["warnings"][0]["message"],
+            "key \"left_kick\": right_knee and left_knee bend");
+}
+
 TEST_F(ArrangeTest, DancesTheTransitionToAnotherDance) {
   ASSERT_EQ(Dance("other", "--seed 8 --seconds 4").code, 0);
   const Outcome outcome = Edit("dance",
