@@ -63,3 +63,56 @@ test('credentials are the business of the back end, which hears all, and not of 
     await rm(folder, { recursive: true });
   }
 });
+
+test('what can be no key is refused by the names that the page knows', () =>
+  withBackEnd(
+    () => ({ ...order(), seconds: 20, speed: 1 }),
+    async ({ url }) => {
+      const page = connectDance(url);
+      const { id } = await page.begun;
+      const post = (body) => fetch(`${url}/${id}/keys`, { method: 'POST', body });
+      for (const [body, field] of [['{}', 'time'], ['null', 'key'], ['[{"time":5,"pose":"bow"}]', 'key'], ['7', 'key'], ['{"time":5}', 'pose']]) {
+        const answer = await post(body);
+        assert.deepEqual([answer.status, (await answer.text()).split(':')[0]], [400, field], body);
+      }
+      const fields = [
+        [{}, 'pose'],
+        [null, 'key'],
+        [[], 'key'],
+        [{ pose: 'kick', place: [50, 0] }, 'place'],
+        [{ pose: 'kick', place: [1] }, 'place'],
+        [{ pose: 'kick', place: 'there' }, 'place'],
+        [{ pose: 'kick', tme: 8 }, 'tme'],
+        [{ pose: 'kick', time: NaN }, 'time'],
+        [{ pose: 'kick', time: -1 }, 'time'],
+        [{ pose: 'kick', id: 'é'.repeat(150) }, 'id'],
+        [{ rotations: { head: [0, NaN, 0] } }, 'rotations.head'],
+        [{ rotations: { head: [0, 7, 0] } }, 'rotations.head'],
+        [{ rotations: { head: [0, 1, 0] }, hold: 2 }, 'hold'],
+        [{ rotations: {} }, 'rotations'],
+      ];
+      for (const [key, field] of fields) {
+        const error = await page.setKey(key).then(() => assert.fail(field), (error) => error);
+        assert.deepEqual([error.name, error.status, error.message.split(':')[0]], ['DanceError', 400, field], JSON.stringify(key));
+      }
+      page.close();
+    },
+  ));
+
+test('keys without an id get one each', () =>
+  withBackEnd(
+    () => ({ ...order(), seconds: 6, speed: 1 }),
+    async ({ url }) => {
+      const reached = [];
+      const page = connectDance(url, { onKey: ({ id, time }) => reached.push([id, time]) });
+      const { id } = await page.begun;
+      const ids = [];
+      for (const body of [{ time: 3, pose: 'bow' }, { time: 5, pose: 'kick' }, { time: 4, rotations: { head: [0, 0.4, 0] } }]) {
+        const answer = await fetch(`${url}/${id}/keys`, { method: 'POST', body: JSON.stringify(body) });
+        assert.equal(answer.status, 202);
+        ids.push((await answer.json()).id);
+      }
+      while (!page.over) await sleep(20);
+      assert.deepEqual(reached, [[ids[0], 3], [ids[2], 4], [ids[1], 5]]);
+    },
+  ));

@@ -168,7 +168,7 @@ test('a page reads the answers to its keys, else its browser would show them as 
 
 test('a page hears of jumps that stand, of the end at once, and of what is too late in seconds', () =>
   withBackEnd(
-    () => silent,
+    () => ({ ...silent, speed: 1 }), // in time for its keys on a busy machine, too
     async ({ url }) => {
       let refused;
       const { heard } = await watch(url, async (dance, seconds) => {
@@ -184,7 +184,7 @@ test('a page hears of jumps that stand, of the end at once, and of what is too l
       assert.equal(warning[1].id, 'jump');
       assert.match(warning[1].message, /^star_jump is in the air, but without a place it stands on the floor/);
       assert.ok(more.every(([, { message }]) => !message.includes('without a place')), JSON.stringify(more));
-      assert.ok(heard.some(([event, { id, time }]) => event === 'key' && id === 'there' && time === 4), 'a jump where she is');
+      assert.ok(heard.some(([event, news]) => event === 'key' && news.id === 'there' && news.time === 4), JSON.stringify(heard));
       const [, late] = heard.find(([event, { id }]) => event === 'key' && id === 'late');
       assert.match(late.refused, /^too late: all before \d(\.\d+)? s is settled$/);
     },
@@ -210,7 +210,10 @@ test('the back end hears of its wrong orders, and by default so does its console
   const ask = async ({ url }) => {
     for (const [name, [, words]] of Object.entries(wrong)) {
       const answer = await fetch(`${url}?wrong=${name}`);
-      assert.deepEqual([answer.status, (await answer.text()).trim(), heard.pop()], [400, words, words]);
+      const said = (await answer.text()).trim();
+      assert.deepEqual([answer.status, heard.pop()], [400, said]);
+      if (words instanceof RegExp) assert.match(said, words);
+      else assert.equal(said, words);
     }
     assert.equal((await fetch(`${url}?wrong=broken`)).status, 500);
     assert.equal((await fetch(`${url}?wrong=stranger`)).status, 401);
@@ -250,8 +253,8 @@ test('what a page may not have is refused, with a status', () =>
       assert.equal(joints.length, 24);
       const page = connectDance(url);
       await page.begun;
-      await assert.rejects(page.setKey({ pose: 'kik' }), /^DanceError: keyframes\[0\]\.pose: 'kik' is not a pose of the library; .*kick/);
-      assert.deepEqual(await refused(page.setKey({ pose: 'kik' })), [400, 'INVALID_ARGUMENT', 'keyframes[0]']);
+      await assert.rejects(page.setKey({ pose: 'kik' }), /^DanceError: pose: 'kik' is not a pose of the library; .*kick/);
+      assert.deepEqual(await refused(page.setKey({ pose: 'kik' })), [400, 'INVALID_ARGUMENT', "pose: 'kik' "]);
       await assert.rejects(page.setKey({ rotations: { tail: [0, 0, 1] } }), /^DanceError: rotations\.tail: no joint/);
       page.close();
       assert.throws(() => connectDance(url, { onKeys: () => {} }), /^TypeError: options\.onKeys: is none of headers, /);

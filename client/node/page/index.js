@@ -20,6 +20,9 @@ export function connectDance(url, options = {}) {
   return new PageDance(url, options);
 }
 
+/** JSON would make null of NaN. */
+const shown = (_, value) => (typeof value === 'number' && !Number.isFinite(value) ? String(value) : value);
+
 class PageDance {
   begun;
   over = false;
@@ -83,10 +86,13 @@ class PageDance {
   }
 
   async setKey(key) {
+    if (typeof key !== 'object' || key === null || Array.isArray(key)) {
+      throw new DanceError(`key: ${key === null ? 'null' : typeof key} is no {pose} and no {rotations}`, { status: 400, code: 'INVALID_ARGUMENT' });
+    }
     const said = { id: this.#pending.newId(), time: this.soon(), ...key };
     this.#pending.add(said);
     try {
-      await this.#send('POST', '/keys', JSON.stringify(said));
+      await this.#send('POST', '/keys', JSON.stringify(said, shown));
     } catch (error) {
       this.#pending.delete(said.id);
       throw error;
@@ -108,7 +114,7 @@ class PageDance {
     const asked = { method, body, headers: { ...headers, 'Content-Type': 'application/json' } };
     const answer = await fetch(`${place}/${id}${path}`, asked).catch((error) => Promise.reject(DanceError.of(error)));
     if (!answer.ok) throw await DanceError.by(answer);
-    await answer.text(); // empty; browsers show a request whose answer nobody reads as cancelled
+    await answer.text(); // browsers show a request whose answer nobody reads as cancelled
   }
 
   async #listen(begin, fail) {

@@ -4,15 +4,15 @@ import type { ChoreoClient, ChoreoError, DanceConfig, Resumed, StreamDanceReques
 
 /** What to dance. */
 export interface DanceOrder {
-  /** How long. */
+  /** How long, at most an hour. */
   seconds: number;
   /**
    * The bytes of a WAV, FLAC, Ogg or MP3 file; or pieces of music while it sounds, `{ audio: { data } }`, of config.audio_format, as requests, among
    * which others may be. Without it the dance is silent.
    */
   music?: Uint8Array | ArrayBuffer | Iterable<StreamDanceRequest> | AsyncIterable<StreamDanceRequest>;
-  /** Seed, model, style and the like. Frames, encoding and generate_until are said here. */
-  config?: DanceConfig;
+  /** Seed, model, style and the like. serveDance() sets the others itself. */
+  config?: Omit<DanceConfig, 'frames' | 'encoding' | 'generate_until' | 'reject_invalid_keys'>;
   /** Said before the dance begins: the keys of readKeys(), controls. */
   keys?: StreamDanceRequest[];
   /** Times as fast as time, until the page tells where it plays, which follow() does; default 1. */
@@ -44,7 +44,7 @@ export interface DanceHandler {
    *   `dance` {id, frame_rate, skeleton}; `frames` {first, places: 3 numbers a frame, turns: 4 a joint}; `key` {id, time} or {id, refused};
    *   `warning` {id, message}; `moved` {frame}: another server goes on; last `over` {frames} or `failed` {code, message, retry_after}.
    * - `POST /dance/ID/keys`: a key, as in a key file (docs/poses.md), {id, time, pose: 'kick'}, whose place may be 'here'; or {id, time, rotations: {head: [0, 0.4, 0]}}, which
-   *   sets these joints alone. 202; a key that comes too late, or near another one, is refused by an event. The same id again moves a key.
+   *   sets these joints alone. 202 with {id}, which a key without an id gets; a key that comes too late, or near another one, is refused by an event. The same id again moves a key.
    * - `DELETE /dance/ID/keys/KEY`: takes it back.
    * - `POST /dance/ID/clock`: {time, paused}, where the page plays. 202. Frames up to a second later are settled. A page that never tells it plays
    *   from its first frame on.

@@ -63,7 +63,7 @@ class DanceServer {
     else if (asked === 'GET :id' && id === 'skeleton') await this.#tellSkeleton(response);
     else if (asked === 'POST :id/keys') await this.#sayKey(id, request, response);
     else if (asked === 'POST :id/clock') await this.#hearClock(id, request, response);
-    else if (asked === 'DELETE :id/keys/:key') this.#say(id, response, [{ remove_keyframe: { id: key } }]);
+    else if (asked === 'DELETE :id/keys/:key') this.#removeKey(id, response, key);
     else return false;
     return true;
   }
@@ -83,7 +83,9 @@ class DanceServer {
     const body = await bodyOf(request);
     const dance = this.#find(id);
     const warnings = []; // sent once the key is accepted
-    this.#say(id, response, editsOf(body, dance.model.skeleton, dance.here, (...warning) => warnings.push(warning)));
+    const { id: key, requests } = editsOf(body, dance.model.skeleton, dance.dancer, (...warning) => warnings.push(warning));
+    this.#find(id).say(requests);
+    response.writeHead(202, { 'Content-Type': 'application/json' }).end(JSON.stringify({ id: key }));
     for (const warning of warnings) dance.warn(...warning);
   }
 
@@ -93,8 +95,8 @@ class DanceServer {
     response.writeHead(202).end();
   }
 
-  #say(id, response, requests) {
-    this.#find(id).say(requests);
+  #removeKey(id, response, key) {
+    this.#find(id).say([{ remove_keyframe: { id: key } }]);
     response.writeHead(202).end();
   }
 

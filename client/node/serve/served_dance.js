@@ -17,8 +17,8 @@ export class ServedDance {
   model;
   over = false;
   watchers = 0;
-  /** Where the dancer stands in the newest frame, [x, z]. */
-  here = [0, 0];
+  /** Where the dancer stands in the newest frame, {here: [x, z], time: seconds}. */
+  dancer = { here: [0, 0], time: 0 };
   /** The timer after which the server forgets it. */
   forget;
   #client;
@@ -134,7 +134,14 @@ export class ServedDance {
   #whyRefused({ code, field, reason, earliest_frame }) {
     const isLate = code === 'REJECTION_CODE_TOO_LATE' || code === 'REJECTION_CODE_FROZEN';
     if (isLate) return `too late: all before ${Math.ceil((100 * Number(earliest_frame)) / this.model.model_frame_rate) / 100} s is settled`;
-    return field ? `${field}: ${reason}` : reason;
+    return field ? `${this.#asOwn(field)}: ${reason}` : reason;
+  }
+
+  /** The field of a key as the page names it. */
+  #asOwn(field) {
+    const [, turn] = /^keyframe\.pose\.rotations\[(\d+)\]$/.exec(field) ?? [];
+    if (turn !== undefined) return `rotations.${this.model.skeleton.joint_names[Math.floor(turn / 3)]}`;
+    return field.replace('keyframe.pose.root_position', 'place').replace('keyframe.mask', 'rotations').replace(/^keyframe\./, '');
   }
 
   #take({ header, frames, event, summary }) {
@@ -145,7 +152,7 @@ export class ServedDance {
     if (frames) {
       this.#frames += frames.count;
       const [x, , z] = frames.root_positions.slice(-3);
-      this.here = [x, z];
+      this.dancer = { here: [x, z], time: this.#frames / this.#shownRate };
       this.#tell('frames', { first: Number(frames.first_frame), places: short(frames.root_positions), turns: short(frames.rotations) });
     }
     if (event?.keyframe_reached) this.#tell('key', { id: event.keyframe_reached.id, time: event.time });
