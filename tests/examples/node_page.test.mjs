@@ -198,6 +198,13 @@ test('the back end hears of its wrong orders, and by default so does its console
     past: [{ seconds: -3 }, 'seconds: -3 is not a number above 0'],
     still: [{ ...silent, speed: 0 }, 'speed: 0 is not a number above 0'],
     path: [{ ...silent, music: 'song.mp3' }, "music: 'song.mp3' is text; give the file's bytes, as readFile() does"],
+    long: [{ ...silent, seconds: 1e9 }, 'seconds: 1000000000 s is more than an hour, 3600 s'],
+    keyed: [{ ...silent, keys: { keyframes: [] } }, 'keys: { keyframes: [] } is no list of requests, as readKeys() gives it'],
+    file: [{ ...silent, keys: [{ keyframe: {} }, { id: 'kick', time: 2 }] }, /^keys\[1\]\.id: no field of StreamDanceRequest; there are config, /],
+    nothing: [{ ...silent, keys: [null] }, /^keys\[0\]: null is no StreamDanceRequest/],
+    frames: [{ ...silent, config: { frames: 90 } }, 'config.frames: is not yours to set: say seconds'],
+    turns: [{ ...silent, config: { encoding: 'ROTATION_ENCODING_MATRIX' } }, 'config.encoding: is not yours to set: pages get quaternions'],
+    until: [{ ...silent, config: { generate_until: 90 } }, "config.generate_until: is not yours to set: the page's clock says it"],
     seed: [{ ...silent, config: { seed: 'abc' } }, "config.seed: 'abc' is not a whole number from 0 to 18446744073709551615"],
   };
   const begin = ({ searchParams }) => {

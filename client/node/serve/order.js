@@ -5,15 +5,39 @@ import { isObject } from '../src/fields.js';
 import { hint, quoted } from '../src/words.js';
 
 const names = ['seconds', 'music', 'config', 'keys', 'speed'];
+/** Fields of a config that serveDance() sets itself, and what to do instead. */
+const ownFields = {
+  frames: 'say seconds',
+  encoding: 'pages get quaternions',
+  generate_until: "the page's clock says it",
+  reject_invalid_keys: 'it is always true',
+};
+const mostSeconds = 3600; // of a dance: 108 000 frames
 
 /** Throws ChoreoError, which names the field, for an invalid order. */
 export function requireOrder(order) {
   if (!isObject(order)) throw invalid('order', `${quoted(order)} is no {${names.join(', ')}}`);
   for (const name of Object.keys(order)) if (!names.includes(name)) throw invalid(name, `no field of an order; ${hint(name, names)}`);
   requirePositive('seconds', order.seconds);
+  if (order.seconds > mostSeconds) throw invalid('seconds', `${order.seconds} s is more than an hour, ${mostSeconds} s`);
   requirePositive('speed', order.speed ?? 1);
   if (typeof order.music === 'string') throw invalid('music', `${quoted(order.music)} is text; give the file's bytes, as readFile() does`);
-  checked('StreamDanceRequest', { config: order.config ?? {} }, 'order');
+  const { config = {}, keys = [] } = order;
+  checked('StreamDanceRequest', { config }, 'order');
+  for (const [name, instead] of Object.entries(ownFields)) if (name in config) throw invalid(`config.${name}`, `is not yours to set: ${instead}`);
+  requireKeys(keys);
+}
+
+/** Requests before the dance begins. */
+function requireKeys(keys) {
+  if (!Array.isArray(keys)) throw invalid('keys', `${quoted(keys)} is no list of requests, as readKeys() gives it`);
+  keys.forEach((key, at) => {
+    try {
+      checked('StreamDanceRequest', key, '');
+    } catch ({ violations: [{ field, description }] }) {
+      throw invalid(`keys[${at}]${field && `.${field}`}`, description);
+    }
+  });
 }
 
 function requirePositive(name, value) {
