@@ -29,17 +29,19 @@ const keyframe = (fields) => [config, { keyframe: { id: 'a', time: 0.5, ...field
 
 test('a request that the API does not know is refused by its path', () =>
   withClient(async (client) => {
-    for (const [requests, field, description] of [
+    for (const [requests, field, description, width = 3] of [
       [[{ config: { frameRate: 60 } }], 'config.frameRate', 'no field of DanceConfig; did you mean frame_rate?'],
       [[{ config: { rate: undefined } }], 'config.rate', 'no field of DanceConfig; did you mean frame_rate?'],
       [[{ config: { audio_format: { zoom: 1 } } }], 'config.audio_format.zoom', /^no field of AudioFormat; there are encoding, sample_rate, /],
       [keyframe({ when: { time: 2 } }), 'keyframe.when', /^no field of Keyframe; there are id, frame, time, /],
-      [[{ config: { encoding: 'QUATERNION' } }], 'config.encoding', "'QUATERNION' is not a RotationEncoding; did you mean ROTATION_ENCODING_QUATERNION?"],
-      [[{ config: { encoding: 77 } }], 'config.encoding', /^77 is not a RotationEncoding; there are ROTATION_ENCODING_UNSPECIFIED, /],
+      [[{ config: { encoding: 'QUATERNION' } }], 'config.encoding', "'QUATERNION' is no RotationEncoding; did you mean ROTATION_ENCODING_QUATERNION?"],
+      [[{ config: { encoding: 77 } }], 'config.encoding', /^77 is no RotationEncoding; there are ROTATION_ENCODING_UNSPECIFIED, /],
       [keyframe({ hands: 'fist' }), 'keyframe.hands', "'fist' is no HandPose; did you mean HAND_POSE_FIST?"],
       [keyframe({ pose: { root_position: [0, 1, 0] } }), 'keyframe.pose.root_position', '[ 0, 1, 0 ] is no Vector3, {x, y, z}'],
       [keyframe({ pose: Promise.resolve({}) }), 'keyframe.pose', /is no Pose/],
       [keyframe({ pose: { rotations: [0, NaN] } }), 'keyframe.pose.rotations[1]', 'NaN is no finite number'],
+      [keyframe({ pose: { rotations: [...Array(7).fill(0), NaN] } }), 'keyframe.pose.rotations[7]', 'NaN is no finite number'],
+      [keyframe({ pose: { encoding: 'ROTATION_ENCODING_QUATERNION', rotations: [...Array(7).fill(0), NaN] } }), 'keyframe.pose.rotations[7]', 'NaN is no finite number', 4],
       [keyframe({ pose: { rotations: [[0, 0, 0]] } }), 'keyframe.pose.rotations[0]', '[ 0, 0, 0 ] is not a number; rotations is one flat list: give lists.flat()'],
       [keyframe({ pose: { rotations: new DataView(new ArrayBuffer(8)) } }), 'keyframe.pose.rotations', /is no array$/],
       [keyframe({ pose: { rotations: new Float32Array([0, NaN]) } }), 'keyframe.pose.rotations[1]', 'NaN is no finite number'],
@@ -63,8 +65,10 @@ test('a request that the API does not know is refused by its path', () =>
     ]) {
       await assert.rejects(collect(client.streamDance(requests)), (error) => {
         assert.ok(error instanceof ChoreoError, error);
-        assert.equal(error.code, 'INVALID_ARGUMENT');
+        assert.deepEqual([error.code, error.reason], ['INVALID_ARGUMENT', 'INVALID_VALUE']);
         assert.equal(error.violations[0].field, field);
+        const number = /rotations\[(\d+)\]$/.exec(field)?.[1];
+        assert.equal(error.violations[0].joint, number && Math.floor(number / width));
         const said = error.violations[0].description;
         if (typeof description === 'string') assert.equal(said, description);
         else assert.match(said, description);
@@ -75,7 +79,7 @@ test('a request that the API does not know is refused by its path', () =>
       });
     }
     const ranked = collect(client.generateTransition({ config: {}, frames: 9, rank_by: 'LIKELIHOOD' }));
-    await assert.rejects(ranked, { message: "rank_by: 'LIKELIHOOD' is not a RankBy; did you mean RANK_BY_LIKELIHOOD?" });
+    await assert.rejects(ranked, { message: "rank_by: 'LIKELIHOOD' is no RankBy; did you mean RANK_BY_LIKELIHOOD?" });
     await assert.rejects(collect(client.generateTransition()), { message: /^request: undefined is no GenerateTransitionRequest/ });
   }));
 
@@ -258,7 +262,7 @@ test('a pose is wherever the dancer is, or at its place', () => {
     [null, 'where: null is not { place: [x, z] }'],
     [{ X: 1 }, 'where.X: is not known; it is { place: [x, z] }'],
     [{ x: 1, z: 2 }, 'where.x: is not known; it is { place: [x, z] }'],
-    [{ place: [1] }, 'where.place: [ 1 ] is not a list of 2 numbers'],
+    [{ place: [1] }, 'where.place: [ 1 ] is not a list of 2 numbers, [x, z] in metres; leave it out, and the pose is taken wherever the dancer is'],
     [{ place: [NaN, 0] }, 'where.place[0]: NaN is not a number'],
   ]) {
     assert.throws(() => pose(skeleton, {}, where), { code: 'INVALID_ARGUMENT', message });

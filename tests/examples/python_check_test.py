@@ -7,6 +7,7 @@ import concurrent.futures
 import functools
 import inspect
 import json
+import math
 import os
 import pathlib
 import queue
@@ -52,11 +53,13 @@ class CheckTest(unittest.TestCase):
             ([{"config": {"frameRate": 60}}], "config.frameRate", r"no field of DanceConfig; did you mean frame_rate\?$"),
             ([{"config": {"audio_format": {"zoom": 1}}}], "config.audio_format.zoom", "no field of AudioFormat; there are encoding, "),
             ([{"config": {"encoding": "QUATERNION"}}], "config.encoding", r"'QUATERNION' is no .*; did you mean ROTATION_ENCODING_QUATERNION\?$"),
-            ([{"config": {"encoding": 77}}], "config.encoding", "77 is not a RotationEncoding; there are ROTATION_ENCODING_UNSPECIFIED, "),
+            ([{"config": {"encoding": 77}}], "config.encoding", "77 is no RotationEncoding; there are ROTATION_ENCODING_UNSPECIFIED, "),
             (keyframe(hands="fist"), "keyframe.hands", r"'fist' is no HandPose; did you mean HAND_POSE_FIST\?$"),
             (keyframe(pose={"root_position": [0, 1, 0]}), "keyframe.pose.root_position", r"\[0, 1, 0\] is no Vector3, {x, y, z}$"),
             (keyframe(pose=choreography.Vector3()), "keyframe.pose", "a choreo.v1.Vector3 is no Pose, "),
             (keyframe(pose={"rotations": [0, float("nan")]}), "keyframe.pose.rotations[1]", "nan is no finite number$"),
+            (keyframe(pose={"rotations": [0] * 7 + [math.nan]}), "keyframe.pose.rotations[7]", "nan is no finite number$"),
+            (keyframe(pose={"encoding": "ROTATION_ENCODING_QUATERNION", "rotations": [0] * 7 + [math.nan]}), "keyframe.pose.rotations[7]", "nan is no"),
             (keyframe(pose={"rotations": "none"}), "keyframe.pose.rotations", "'none' is not a list$"),
             (keyframe(pose={"rotations": 5}), "keyframe.pose.rotations", "5 is not a list$"),
             (keyframe(pose={"rotations": [[0, 0, 0]]}), "keyframe.pose.rotations[0]", r"\[0, 0, 0\] is not a number; rotations is one flat list: give "),
@@ -76,10 +79,14 @@ class CheckTest(unittest.TestCase):
             at = len(requests) - 1
             self.assertEqual(str(error), f"{'' if named.startswith('requests') else f'requests[{at}].'}{named}: {said}")
             self.assertEqual(error.violations[0].request, at)
+            self.assertEqual(error.reason, "INVALID_VALUE")
+            number = re.search(r"rotations\[(\d+)\]$", named)
+            width = 4 if "QUATERNION" in str(requests) else 3
+            self.assertEqual(error.violations[0].joint, number and int(number[1]) // width)
         self.assert_refused("requests: None is no iterable", lambda: list(self.client.stream_dance(None)))
         for one in ({"config": {}}, choreography.StreamDanceRequest()):
             self.assert_refused("requests: is one request: put it in a list", lambda one=one: list(self.client.stream_dance(one)))
-        self.assert_refused("rank_by: 'LIKELIHOOD' is not a RankBy; did you mean", self.client.generate_transition, {"rank_by": "LIKELIHOOD"})
+        self.assert_refused("rank_by: 'LIKELIHOOD' is no RankBy; did you mean", self.client.generate_transition, {"rank_by": "LIKELIHOOD"})
         self.assert_refused("request: None is no GenerateTransitionRequest", self.client.generate_transition, None)
 
     def test_lists_of_messages_are_lists_by_whatever_protobuf_there_is(self):
@@ -350,7 +357,7 @@ print(api_implementation.Type())
         again = self.client.stream_dance([{"config": {"frames": 90, "continuation": kept}}, *rest])
         self.assertEqual([number for answer in again for number in answer.frames.rotations], whole[len(whole) * continuation.frame // 90 :])
         for text in ("12.5", "", "ten", "18446744073709551616"):
-            self.assert_refused(f"config.seed: '{text}' is no whole number", self.dance, {"config": {"seed": text}})
+            self.assert_refused(f"config.seed: '{text}' is not a whole number", self.dance, {"config": {"seed": text}})
 
     def test_public_functions_say_what_they_take_and_give(self):
         public = [aio.stream, pose]

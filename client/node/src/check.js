@@ -1,6 +1,7 @@
 // Checks requests against the API's descriptors, because protobufjs silently drops or converts invalid fields.
 import { types } from 'node:util';
 import protobuf from 'protobufjs';
+import { jointAt } from './as_sent.js';
 import { invalid } from './error.js';
 import { hint, quoted } from './words.js';
 import { api } from './protos.js';
@@ -25,7 +26,15 @@ const samples = { AUDIO_ENCODING_PCM_F32LE: 'Float32Array', AUDIO_ENCODING_PCM_S
  * allowed. `name`: the message's name in errors. `encoding`: that of any music in the message.
  */
 export function checked(type, value, name, encoding) {
-  return message(api.lookupType(`choreo.v1.${type}`), value, '', name, encoding);
+  try {
+    return message(api.lookupType(`choreo.v1.${type}`), value, '', name, encoding);
+  } catch (error) {
+    for (const violation of error.violations ?? []) {
+      const joint = jointAt(violation.field, value);
+      if (joint !== undefined) violation.joint = joint;
+    }
+    throw error;
+  }
 }
 
 /** Throws for `audio` that is too large for a message. `remedy`: the error's advice. */

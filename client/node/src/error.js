@@ -14,7 +14,7 @@ export class ChoreoError extends Error {
     this.violations = violations;
     /** Seconds after which a retry may succeed; undefined if none would, or it is unknown. */
     this.retryAfter = undefined;
-    /** Why, in a word for programs: 'DRAINING', 'SERVER_FULL', ...; undefined where no server said it. */
+    /** Why, in a word for programs: 'DRAINING', 'SERVER_FULL', ...; of this package's own refusals 'INVALID_VALUE'; undefined where nobody said it. */
     this.reason = undefined;
     for (const bytes of failure.metadata?.get('grpc-status-details-bin') ?? []) this.#read(bytes);
   }
@@ -63,7 +63,8 @@ export function cancelled(details = 'the call was cancelled') {
 
 /** Makes the error for an invalid option or field, in the form of the server's errors. */
 export function invalid(field, what) {
-  return new ChoreoError({ code: grpc.status.INVALID_ARGUMENT, details: `${field}: ${what}` }, [{ field, description: what }]);
+  const error = new ChoreoError({ code: grpc.status.INVALID_ARGUMENT, details: `${field}: ${what}` }, [{ field, description: what }]);
+  return Object.assign(error, { reason: 'INVALID_VALUE' }); // as servers say
 }
 
 /** Fields that another replica may accept, because it was started with other models. */

@@ -97,7 +97,7 @@ export class ChoreoError extends Error {
   readonly violations: { field: string; description: string; keyframeId?: string; joint?: number; request?: number }[];
   /** Seconds after which a retry may succeed; absent if none would, or it is unknown. */
   readonly retryAfter?: number;
-  /** The server's reason, for programs, such as 'DRAINING' or 'SERVER_FULL'; absent if no server gave one. */
+  /** The reason, for programs, such as 'DRAINING', 'SERVER_FULL' or, of this package's own refusals too, 'INVALID_VALUE'; absent if none is known. */
   readonly reason?: string;
 }
 

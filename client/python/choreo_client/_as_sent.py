@@ -1,10 +1,31 @@
 """Translates fields in errors: servers count the joints of a pose, whereas callers count the numbers that they sent."""
 
+import collections.abc
 import re
 
 from . import choreography
 
 _WIDTHS = {choreography.ROTATION_ENCODING_QUATERNION: 4, choreography.ROTATION_ENCODING_MATRIX: 9}
+
+
+_MEMBER = re.compile(r"(\w+)(?:\[(\d+)\])?")
+
+
+def joint_at(field, request):
+    """The joint of a number in a message's rotations, such as "keyframe.pose.rotations[48]": 16. None for other fields."""
+    counted = re.fullmatch(r"(.+)\.rotations\[(\d+)\]", field)
+    return counted and int(counted[2]) // _width(counted[1], request)
+
+
+def _width(path, request):
+    pose = request
+    for name, index in _MEMBER.findall(path):
+        pose = pose.get(name) if isinstance(pose, collections.abc.Mapping) else getattr(pose, name, None)
+        if index:
+            pose = pose[int(index)] if pose is not None and int(index) < len(pose) else None
+    encoding = pose.get("encoding") if isinstance(pose, collections.abc.Mapping) else getattr(pose, "encoding", None)
+    number = getattr(choreography, encoding, None) if isinstance(encoding, str) else encoding
+    return _WIDTHS.get(number, 3) if isinstance(number, int) else 3
 
 
 def as_sent(field, request):
@@ -13,9 +34,5 @@ def as_sent(field, request):
     counted = re.fullmatch(r"(.+)\.rotations\[(\d+)\]", field)
     if counted is None:
         return field, None
-    pose, joint = request, int(counted[2])
-    for name, index in re.findall(r"(\w+)(?:\[(\d+)\])?", counted[1]):
-        pose = getattr(pose, name, None)
-        if index:
-            pose = pose[int(index)] if pose is not None and int(index) < len(pose) else None
-    return f"{counted[1]}.rotations[{joint * _WIDTHS.get(getattr(pose, 'encoding', None), 3)}]", joint
+    joint = int(counted[2])
+    return f"{counted[1]}.rotations[{joint * _width(counted[1], request)}]", joint

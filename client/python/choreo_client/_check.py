@@ -11,7 +11,8 @@ from google.protobuf.descriptor import FieldDescriptor as Field
 from google.protobuf.message import Message
 
 from . import choreography
-from ._errors import invalid
+from ._as_sent import joint_at
+from ._errors import ChoreoError, invalid
 from ._words import hint, quoted
 
 _RANGES = {
@@ -28,7 +29,12 @@ _SAMPLES = {"AUDIO_ENCODING_PCM_F32LE": "f", "AUDIO_ENCODING_PCM_S16LE": "h"}
 def checked(kind, value, name, encoding=0):
     """Returns a message of class `kind` from `value`, a message or its fields. `name`: the message's name in errors. `encoding`: that of any
     music in the message."""
-    return _message(kind.DESCRIPTOR, value, "", name, encoding)
+    try:
+        return _message(kind.DESCRIPTOR, value, "", name, encoding)
+    except ChoreoError as error:
+        for violation in error.violations:
+            violation.joint = joint_at(violation.field, value)
+        raise
 
 
 def require_sendable(request, remedy):

@@ -25,7 +25,7 @@ class Violation(collections.namedtuple("Violation", "field description")):
 class ChoreoError(Exception):
     """A failed call, or an unusable option. `code` is the name of a gRPC status code, such as "INVALID_ARGUMENT". The message is the server's,
     and `violations` has the fields that it names. A retry may succeed after `retry_after` seconds (None: it would not, or it is unknown).
-    `reason` is the server's, for programs, such as "DRAINING" or "SERVER_FULL" (None: no server gave one)."""
+    `reason` is for programs, such as "DRAINING", "SERVER_FULL" or, of this package's own refusals too, "INVALID_VALUE" (None: unknown)."""
 
     def __init__(self, code, message, violations=(), retry_after=None):
         super().__init__(message)
@@ -57,7 +57,7 @@ class ChoreoError(Exception):
         place = "" if request is None or field.startswith("requests[") else f"requests[{request}]."
         if str(self).endswith(f": {violation.description}"):  # the server's message names fields in its own numbering
             self.args = (f"{place}{field}: {violation.description}",)
-        return Violation(field, violation.description, violation.keyframe_id, joint, request)
+        return Violation(field, violation.description, violation.keyframe_id, violation.joint if joint is None else joint, request)
 
     def _read(self, value):
         key = None
@@ -86,7 +86,9 @@ def wrong_field(code, field, what):
 
 
 def invalid(field, what):
-    return wrong_field("INVALID_ARGUMENT", field, what)
+    error = wrong_field("INVALID_ARGUMENT", field, what)
+    error.reason = "INVALID_VALUE"  # as servers say
+    return error
 
 
 # Fields that another replica may accept, because it was started with other models.

@@ -70,7 +70,7 @@ class Journal:
             key = request.get("keyframe") if isinstance(request, collections.abc.Mapping) else None
             name = key.get("id") if isinstance(key, collections.abc.Mapping) else None
             if isinstance(name, str):
-                error.violations = [Violation(*violation, keyframe_id=name) for violation in error.violations]
+                error.violations = [Violation(*violation, keyframe_id=name, joint=violation.joint) for violation in error.violations]
             raise error.located(lambda violation: (None, len(self._said)), lambda field, message: (field, None))
 
     def _numbered(self, request):
