@@ -136,19 +136,6 @@ TEST_F(StreamTest, AnotherFingerprintIsRefusedUnlessAllowed) {
   EXPECT_EQ(Dance({request}).status.error_code(), grpc::StatusCode::FAILED_PRECONDITION);
 }
 
-TEST_F(StreamTest, AHistoryAndAContinuationExcludeEachOther) {
-  Start();
-  const Answer whole = MusicDance(21, 1 << 20);
-  ASSERT_FALSE(whole.continuations.empty());
-  v1::StreamDanceRequest request;
-  *request.mutable_config() = Config();
-  *request.mutable_config()->mutable_continuation() = whole.continuations[0];
-  *request.mutable_config()->mutable_history()->add_poses() = KeyPose(0, 0, 0);
-  const Details details = DetailsOf(Dance({request}).status);
-  ASSERT_TRUE(details.bad_request);
-  EXPECT_EQ(details.bad_request->field_violations(0).field(), "config.history");
-}
-
 // Beats go on where the longest music has ended.
 TEST_F(StreamTest, TheLastBeatOfAContinuationMayLieAfterAllMusic) {
   Start();
