@@ -91,7 +91,8 @@ authoring::NamedPose EditSession::ReadKeyPose(const std::string& source) const {
     return authoring::ReadPose(source, edit_.model.skeleton, counts_);
   const std::vector<int64_t> frames = FindKey(keys_, source, edit_.model.fps, "--key", counts_);
   const GroundFrame there = Here(frames.front());
-  authoring::NamedPose named{.has_place = false};
+  authoring::NamedPose named;
+  named.has_place = false;
   for (client::KeyPose& key : KeysAsDanced(frames.front(), frames.back() + 1)) {
     key.time_s = Seconds(*key.frame);
     key.frame.reset();

@@ -125,7 +125,7 @@ test('what is no JSON is refused', () => {
 test('what cannot be read is named', () => {
   for (const [key, field, said] of [
     [{ pose: 'stand' }, '.time', 'is missing, and so is frame'],
-    [{ time: 1, frame: 2, pose: 'stand' }, '.time', 'stands beside frame'],
+    [{ time: 1, frame: 2, pose: 'stand' }, '.time', 'cannot be combined with frame'],
     [{ time: '9c', pose: 'stand' }, '.time', "'9c' is not a number; counts need a song's beats: say seconds"],
     [{ time: 1, pose: 'stnad' }, '.pose', "'stnad' is not a pose of the library; "],
     [{ time: 1, poze: 'stand' }, '.poze', 'is not known; did you mean pose?'],

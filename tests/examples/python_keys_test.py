@@ -127,7 +127,7 @@ class KeysTest(unittest.TestCase):
     def test_what_cannot_be_read_is_named(self):
         for key, field, said in (
             ({"pose": "stand"}, ".time", "is missing, and so is frame"),
-            ({"time": 1, "frame": 2, "pose": "stand"}, ".time", "stands beside frame"),
+            ({"time": 1, "frame": 2, "pose": "stand"}, ".time", "cannot be combined with frame"),
             ({"time": "9c", "pose": "stand"}, ".time", "'9c' is not a number; counts need a song's beats: say seconds"),
             ({"time": 1, "pose": "stnad"}, ".pose", "'stnad' is not a pose of the library; did you mean stand?"),
             ({"time": 1, "poze": "stand"}, ".poze", "is not known; did you mean pose?"),
