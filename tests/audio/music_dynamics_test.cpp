@@ -96,6 +96,12 @@ TEST(MusicDynamicsTest, SteadyMusicStaysAtTheMiddleAtAnyLoudness) {
   for (size_t i = 0; i < energies.size(); ++i) EXPECT_NEAR(softer[i], energies[i], 0.05) << i;
 }
 
+// Within the range of half a minute a loud part became usual.
+TEST(MusicDynamicsTest, ALoudPartOfAMinuteStaysLoud) {
+  const auto energies = EnergiesOf(RowsOf(Joined({Pad(40), Drums(60)})));
+  EXPECT_GT(Mean(std::span(energies).last(20)), 0.2);
+}
+
 TEST(MusicDynamicsTest, AKnownSongRisesWithItsDrop) {
   const auto energies =
       SongEnergies(RowsOf(Joined({Pad(20), Drums(20), std::vector<float>(10 * kRate)})));
