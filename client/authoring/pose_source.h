@@ -10,7 +10,7 @@ namespace choreo::authoring {
 
 /// A pose named on a command line.
 struct NamedPose {
-  client::KeyPose key;
+  client::KeyPose key = {};
   bool has_place = true;  ///< false for library poses, which are around the origin, facing +Z
   /// Keys that hold the pose, if a key file gives any, with times relative to the key's.
   std::vector<client::KeyPose> held = {};

@@ -286,7 +286,7 @@ test('what is no body says why', async () => {
   const renamed = structuredClone(bones);
   renamed[at('LeftUpLeg')].name = 'x';
   assert.deepEqual(new Character(renamed, body, { map: { left_hip: 'x' } }).bones, new Character(bones, body).bones);
-  refused((all) => (all[2].parent = 99), 'bones[2].parent: 99 is no bone, and not -1');
+  refused((all) => (all[2].parent = 99), 'bones[2].parent: 99 is not a bone, and not -1');
   refused((all) => (all[at('Hips')].parent = at('Spine')), 'bones: some are their own ancestors');
   refused((all) => (all[3].rotation = [0, 0, NaN, 1]), 'bones[3].rotation: 0,0,NaN,1 is not 4 finite numbers');
   refused((all) => (all[at('Head')].scale = [0, 0, 0]), `bones[${at('Head')}].scale: is zero`);

@@ -34,34 +34,34 @@ test('a request that the API does not know is refused by its path', () =>
       [[{ config: { rate: undefined } }], 'config.rate', 'no field of DanceConfig; did you mean frame_rate?'],
       [[{ config: { audio_format: { zoom: 1 } } }], 'config.audio_format.zoom', /^no field of AudioFormat; there are encoding, sample_rate, /],
       [keyframe({ when: { time: 2 } }), 'keyframe.when', /^no field of Keyframe; there are id, frame, time, /],
-      [[{ config: { encoding: 'QUATERNION' } }], 'config.encoding', "'QUATERNION' is no RotationEncoding; did you mean ROTATION_ENCODING_QUATERNION?"],
-      [[{ config: { encoding: 77 } }], 'config.encoding', /^77 is no RotationEncoding; there are ROTATION_ENCODING_UNSPECIFIED, /],
-      [keyframe({ hands: 'fist' }), 'keyframe.hands', "'fist' is no HandPose; did you mean HAND_POSE_FIST?"],
-      [keyframe({ pose: { root_position: [0, 1, 0] } }), 'keyframe.pose.root_position', '[ 0, 1, 0 ] is no Vector3, {x, y, z}'],
-      [keyframe({ pose: Promise.resolve({}) }), 'keyframe.pose', /is no Pose/],
-      [keyframe({ pose: { rotations: [0, NaN] } }), 'keyframe.pose.rotations[1]', 'NaN is no finite number'],
-      [keyframe({ pose: { rotations: [...Array(7).fill(0), NaN] } }), 'keyframe.pose.rotations[7]', 'NaN is no finite number'],
-      [keyframe({ pose: { encoding: 'ROTATION_ENCODING_QUATERNION', rotations: [...Array(7).fill(0), NaN] } }), 'keyframe.pose.rotations[7]', 'NaN is no finite number', 4],
+      [[{ config: { encoding: 'QUATERNION' } }], 'config.encoding', "'QUATERNION' is not a RotationEncoding; did you mean ROTATION_ENCODING_QUATERNION?"],
+      [[{ config: { encoding: 77 } }], 'config.encoding', /^77 is not a RotationEncoding; there are ROTATION_ENCODING_UNSPECIFIED, /],
+      [keyframe({ hands: 'fist' }), 'keyframe.hands', "'fist' is not a HandPose; did you mean HAND_POSE_FIST?"],
+      [keyframe({ pose: { root_position: [0, 1, 0] } }), 'keyframe.pose.root_position', '[ 0, 1, 0 ] is not a Vector3, {x, y, z}'],
+      [keyframe({ pose: Promise.resolve({}) }), 'keyframe.pose', /is not a Pose/],
+      [keyframe({ pose: { rotations: [0, NaN] } }), 'keyframe.pose.rotations[1]', 'NaN is not a finite number'],
+      [keyframe({ pose: { rotations: [...Array(7).fill(0), NaN] } }), 'keyframe.pose.rotations[7]', 'NaN is not a finite number'],
+      [keyframe({ pose: { encoding: 'ROTATION_ENCODING_QUATERNION', rotations: [...Array(7).fill(0), NaN] } }), 'keyframe.pose.rotations[7]', 'NaN is not a finite number', 4],
       [keyframe({ pose: { rotations: [[0, 0, 0]] } }), 'keyframe.pose.rotations[0]', '[ 0, 0, 0 ] is not a number; rotations is one flat list: give lists.flat()'],
-      [keyframe({ pose: { rotations: new DataView(new ArrayBuffer(8)) } }), 'keyframe.pose.rotations', /is no array$/],
-      [keyframe({ pose: { rotations: new Float32Array([0, NaN]) } }), 'keyframe.pose.rotations[1]', 'NaN is no finite number'],
-      [keyframe({ pose: { rotations: 'none' } }), 'keyframe.pose.rotations', "'none' is no array"],
+      [keyframe({ pose: { rotations: new DataView(new ArrayBuffer(8)) } }), 'keyframe.pose.rotations', /is not an array$/],
+      [keyframe({ pose: { rotations: new Float32Array([0, NaN]) } }), 'keyframe.pose.rotations[1]', 'NaN is not a finite number'],
+      [keyframe({ pose: { rotations: 'none' } }), 'keyframe.pose.rotations', "'none' is not an array"],
       [keyframe({ mask: { joints: ['head'] } }), 'keyframe.mask.joints[0]', "'head' is not a whole number from -2147483648 to 2147483647"],
-      [keyframe({ time: '6' }), 'keyframe.time', "'6' is no finite number"],
-      [keyframe({ hit: '1' }), 'keyframe.hit', "'1' is no finite number"],
-      [keyframe({ pose: { rotations: ['0'] } }), 'keyframe.pose.rotations[0]', "'0' is no finite number"],
+      [keyframe({ time: '6' }), 'keyframe.time', "'6' is not a finite number"],
+      [keyframe({ hit: '1' }), 'keyframe.hit', "'1' is not a finite number"],
+      [keyframe({ pose: { rotations: ['0'] } }), 'keyframe.pose.rotations[0]', "'0' is not a finite number"],
       [keyframe({ mask: { joints: ['1'] } }), 'keyframe.mask.joints[0]', "'1' is not a whole number from -2147483648 to 2147483647"],
-      [keyframe({ id: 5 }), 'keyframe.id', '5 is no string'],
+      [keyframe({ id: 5 }), 'keyframe.id', '5 is not a string'],
       [keyframe({ frame: 3 }), 'keyframe.frame', 'given beside time; there is one of frame, time, interval_after_previous'],
       [[{ config: {}, end_of_audio: {} }], 'end_of_audio', /^given beside config; there is one of config, audio, /],
-      [[{ config: { allow_inexact_resume: 'no' } }], 'config.allow_inexact_resume', "'no' is no boolean"],
+      [[{ config: { allow_inexact_resume: 'no' } }], 'config.allow_inexact_resume', "'no' is not a boolean"],
       ...[1.5, -1, '1e3', '18446744073709551616', true, []].map((seed) => [[{ config: { seed } }], 'config.seed', / is not a whole number from 0 to 18\d+$/]),
       [[{ config: { seed: 2 ** 64 } }], 'config.seed', /; numbers above 2\^53 go as text$/],
-      [[config, { keyframe: null }], 'keyframe', /^null is no Keyframe, /],
-      [[config, { remove_keyframe: undefined }], 'remove_keyframe', /^undefined is no RemoveKeyframe, /],
-      [[config, undefined], 'requests[1]', /^undefined is no StreamDanceRequest, {config, audio, /],
-      [[config, [config]], 'requests[1]', /is no StreamDanceRequest/],
-      [undefined, 'requests', 'undefined is no iterable of messages'],
+      [[config, { keyframe: null }], 'keyframe', /^null is not a Keyframe, /],
+      [[config, { remove_keyframe: undefined }], 'remove_keyframe', /^undefined is not a RemoveKeyframe, /],
+      [[config, undefined], 'requests[1]', /^undefined is not a StreamDanceRequest, {config, audio, /],
+      [[config, [config]], 'requests[1]', /is not a StreamDanceRequest/],
+      [undefined, 'requests', 'undefined is not an iterable of messages'],
     ]) {
       await assert.rejects(collect(client.streamDance(requests)), (error) => {
         assert.ok(error instanceof ChoreoError, error);
@@ -79,8 +79,8 @@ test('a request that the API does not know is refused by its path', () =>
       });
     }
     const ranked = collect(client.generateTransition({ config: {}, frames: 9, rank_by: 'LIKELIHOOD' }));
-    await assert.rejects(ranked, { message: "rank_by: 'LIKELIHOOD' is no RankBy; did you mean RANK_BY_LIKELIHOOD?" });
-    await assert.rejects(collect(client.generateTransition()), { message: /^request: undefined is no GenerateTransitionRequest/ });
+    await assert.rejects(ranked, { message: "rank_by: 'LIKELIHOOD' is not a RankBy; did you mean RANK_BY_LIKELIHOOD?" });
+    await assert.rejects(collect(client.generateTransition()), { message: /^request: undefined is not a GenerateTransitionRequest/ });
   }));
 
 test('one request is not a list', async () => {
@@ -110,14 +110,14 @@ test('options of calls that cannot be used are named before the call', () =>
       (options) => collect(client.generateTransition({ config: {}, frames: 9 }, options)),
     ];
     for (const [options, message] of [
-      [{ deadline: new Date('nonsense') }, 'deadline: Invalid Date is no date'],
-      [{ deadline: NaN }, 'deadline: NaN is no date'],
-      [{ deadline: 'soon' }, "deadline: 'soon' is no date"],
-      [{ deadline: new Date(8.64e15) }, 'deadline: +275760-09-13T00:00:00.000Z is no date within 10 000 years'],
-      [{ deadline: 500 }, 'deadline: 500 is no date of today; numbers are milliseconds since 1970, as Date.now() + 500'],
+      [{ deadline: new Date('nonsense') }, 'deadline: Invalid Date is not a date'],
+      [{ deadline: NaN }, 'deadline: NaN is not a date'],
+      [{ deadline: 'soon' }, "deadline: 'soon' is not a date"],
+      [{ deadline: new Date(8.64e15) }, 'deadline: +275760-09-13T00:00:00.000Z is not a date within 10 000 years'],
+      [{ deadline: 500 }, 'deadline: 500 is not a date of today; numbers are milliseconds since 1970, as Date.now() + 500'],
       [{ deadlin: new Date() }, 'deadlin: no option of this call; did you mean deadline?'],
       [{ timeout: 3 }, /^timeout: no option of this call; there are signal, deadline/],
-      [{ signal: 5 }, 'signal: 5 is no AbortSignal'],
+      [{ signal: 5 }, 'signal: 5 is not an AbortSignal'],
       ['x', /^options: 'x' is not an object {signal, deadline/],
       [null, /^options: null is not an object {signal, deadline/],
     ]) {
@@ -125,7 +125,7 @@ test('options of calls that cannot be used are named before the call', () =>
     }
     const [info, dance] = calls;
     await assert.rejects(dance({ on_resume: () => {} }), { message: 'on_resume: no option of this call; did you mean onResume?' });
-    await assert.rejects(dance({ onResume: 5 }), { message: 'onResume: 5 is no function' });
+    await assert.rejects(dance({ onResume: 5 }), { message: 'onResume: 5 is not a function' });
     await assert.rejects(info({ onResume: () => {} }), { message: /^onResume: no option of this call; there are signal, deadline, cards$/ });
     await assert.rejects(info({ cards: 'all' }), { message: "cards: 'all' is neither true nor false" });
     const soon = Date.now() + 60000;
@@ -203,7 +203,7 @@ test('music is bytes, or the samples that its encoding says', () =>
     const wrong = /^requests\[1\]\.audio\.data: Float32Array is not what config\.audio_format\.encoding says, AUDIO_ENCODING_PCM_S16LE: that is Int16Array or any bytes$/;
     for (const encoding of ['AUDIO_ENCODING_PCM_S16LE', 2]) await assert.rejects(dance(encoding, floats), { message: wrong });
     for (const data of [[1, 2], 'song.mp3', 5]) {
-      await assert.rejects(dance('AUDIO_ENCODING_PCM_S16LE', data), { message: /^requests\[1\]\.audio\.data: .* is no bytes/ });
+      await assert.rejects(dance('AUDIO_ENCODING_PCM_S16LE', data), { message: /^requests\[1\]\.audio\.data: .* is not bytes/ });
     }
   }));
 

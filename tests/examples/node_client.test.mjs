@@ -127,14 +127,14 @@ test('options that cannot be used are named', () =>
       [far, { tls: true, clientCertificate: own.cert, clientKey: ca.key }, new RegExp(`^clientKey: ${ca.key} is not the key of ${own.cert}`)],
       [far, { silence: 1 }, 'silence: 1 s is neither 0 nor at least 2 s'],
       [far, { retry: -1 }, 'retry: -1 is not a finite number >= 0'],
-      [far, { tls: 'yes' }, "tls: 'yes' is no boolean"],
+      [far, { tls: 'yes' }, "tls: 'yes' is not a boolean"],
       [far, { token_file: 'x' }, 'token_file: no option; did you mean tokenFile?'],
       [far, { patience: 1 }, /^patience: no option; there are tls, caCertificate, /],
       ['http://one:50051', {}, 'addresses: http://one:50051 is a URL; use HOST:PORT, and the option tls for TLS'],
       ['dns:///one', {}, 'addresses: dns:///one has no port; use HOST:PORT'],
-      [undefined, {}, 'addresses: undefined is no HOST:PORT'],
+      [undefined, {}, 'addresses: undefined is not a HOST:PORT'],
       [far, { tls: true, token: 'secret\n' }, 'token: it begins or ends with spaces or a newline; trim it'],
-      [far, { tls: true, token: Buffer.from('secret') }, 'token: Buffer is no string'],
+      [far, { tls: true, token: Buffer.from('secret') }, 'token: Buffer is not a string'],
       [other, { token: '' }, 'token: it is not one line of visible ASCII characters'],
       [far, { tls: true, caCertificate: await readFile(ca.key, 'utf8') }, /^caCertificate: the text holds no certificate in PEM: (?!.*-----)/s],
       [far, { tls: true, clientCertificate: own.cert, clientKey: await readFile(ca.key, 'utf8') }, /^clientKey: the text is not the key of (?!.*-----)/s],
@@ -263,10 +263,10 @@ for (const frame_rate of [30, 50]) {
       ],
     );
     const reasons = refused.slice(-refusedHere.length).map(([{ reason }]) => reason);
-    assert.deepEqual(reasons.slice(0, 2), ["'soon' is no finite number", 'NaN is no finite number']);
+    assert.deepEqual(reasons.slice(0, 2), ["'soon' is not a finite number", 'NaN is not a finite number']);
     assert.match(reasons[2], /^none of frame, time/);
-    assert.match(reasons[4], /^'wave' is no Keyframe, /);
-    assert.match(reasons.at(-5), /^null is no Keyframe, /);
+    assert.match(reasons[4], /^'wave' is not a Keyframe, /);
+    assert.match(reasons.at(-5), /^null is not a Keyframe, /);
     const enough = (all) => all.filter((answer) => answer.continuation).length > 1 && all.at(-1).frames?.first_frame > 3.5 * frame_rate;
     const { answers, resumes } = await danceAndKill(source, enough);
     assert.equal(resumes.length, 1);

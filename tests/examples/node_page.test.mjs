@@ -193,15 +193,15 @@ test('a page hears of jumps that stand, of the end at once, and of what is too l
 test('the back end hears of its wrong orders, and by default so does its console', async () => {
   const wrong = {
     musik: [{ ...silent, musik: [] }, 'musik: no field of an order; did you mean music?'],
-    none: [undefined, 'order: undefined is no {seconds, music, config, keys, speed}'],
+    none: [undefined, 'order: undefined is not {seconds, music, config, keys, speed}'],
     endless: [{}, 'seconds: undefined is not a number above 0'],
     past: [{ seconds: -3 }, 'seconds: -3 is not a number above 0'],
     still: [{ ...silent, speed: 0 }, 'speed: 0 is not a number above 0'],
     path: [{ ...silent, music: 'song.mp3' }, "music: 'song.mp3' is text; give the file's bytes, as readFile() does"],
     long: [{ ...silent, seconds: 1e9 }, 'seconds: 1000000000 s is more than an hour, 3600 s'],
-    keyed: [{ ...silent, keys: { keyframes: [] } }, 'keys: { keyframes: [] } is no list of requests, as readKeys() gives it'],
+    keyed: [{ ...silent, keys: { keyframes: [] } }, 'keys: { keyframes: [] } is not a list of requests, as readKeys() gives it'],
     file: [{ ...silent, keys: [{ keyframe: {} }, { id: 'kick', time: 2 }] }, /^keys\[1\]\.id: no field of StreamDanceRequest; there are config, /],
-    nothing: [{ ...silent, keys: [null] }, /^keys\[0\]: null is no StreamDanceRequest/],
+    nothing: [{ ...silent, keys: [null] }, /^keys\[0\]: null is not a StreamDanceRequest/],
     frames: [{ ...silent, config: { frames: 90 } }, 'config.frames: is not yours to set: say seconds'],
     turns: [{ ...silent, config: { encoding: 'ROTATION_ENCODING_MATRIX' } }, 'config.encoding: is not yours to set: pages get quaternions'],
     until: [{ ...silent, config: { generate_until: 90 } }, "config.generate_until: is not yours to set: the page's clock says it"],
@@ -302,7 +302,7 @@ test('a page that closes ends its dance, and so does the back end', async () => 
 
 test('what cannot be served is said at once', () => {
   const client = new ChoreoClient(server);
-  assert.throws(() => serveDance(client), /^ChoreoError: begin: undefined is no function/);
+  assert.throws(() => serveDance(client), /^ChoreoError: begin: undefined is not a function/);
   assert.throws(() => serveDance(client, () => silent, { pathh: '/x' }), /^ChoreoError: pathh: no option; did you mean path/);
   client.close();
 });

@@ -97,9 +97,9 @@ test('the end is held', () => {
 });
 
 test('what is no time or rate is refused', () => {
-  assert.throws(() => new Player(header).at(NaN), { name: 'TypeError', message: 'seconds: NaN is no finite number' });
-  assert.throws(() => new Player({}), { name: 'TypeError', message: 'header.frame_rate: undefined is no finite number above 0' });
+  assert.throws(() => new Player(header).at(NaN), { name: 'TypeError', message: 'seconds: NaN is not a finite number' });
+  assert.throws(() => new Player({}), { name: 'TypeError', message: 'header.frame_rate: undefined is not a finite number above 0' });
   assert.throws(() => new Player(), { name: 'TypeError', message: "header: undefined is not a dance's header" });
   assert.throws(() => new Player(header, { catchup: 1 }), { name: 'TypeError', message: 'options.catchup: is none of keep, catchUp' });
-  assert.throws(() => new Player(header, { catchUp: 0 }), { name: 'TypeError', message: 'catchUp: 0 is no finite number above 0' });
+  assert.throws(() => new Player(header, { catchUp: 0 }), { name: 'TypeError', message: 'catchUp: 0 is not a finite number above 0' });
 });

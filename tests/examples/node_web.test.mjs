@@ -113,7 +113,7 @@ test('a key that cannot be danced is refused, and the dance goes on', () =>
     assert.match(said.shift(), /^400 rotations\.tail: no joint of smpl24; there are pelvis, /);
     const ofKeys = [
       '400 id: has 0 bytes, not 1 to 256',
-      '400 id: 7 is no text',
+      '400 id: 7 is not a text',
       "400 time: 'soon' is not a number",
       '400 rotations: names no joint',
       '400 rotations.head: 7 rad exceeds 2π; angles are in radians',

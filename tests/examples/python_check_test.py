@@ -52,25 +52,25 @@ class CheckTest(unittest.TestCase):
         for requests, field, description in (
             ([{"config": {"frameRate": 60}}], "config.frameRate", r"no field of DanceConfig; did you mean frame_rate\?$"),
             ([{"config": {"audio_format": {"zoom": 1}}}], "config.audio_format.zoom", "no field of AudioFormat; there are encoding, "),
-            ([{"config": {"encoding": "QUATERNION"}}], "config.encoding", r"'QUATERNION' is no .*; did you mean ROTATION_ENCODING_QUATERNION\?$"),
-            ([{"config": {"encoding": 77}}], "config.encoding", "77 is no RotationEncoding; there are ROTATION_ENCODING_UNSPECIFIED, "),
-            (keyframe(hands="fist"), "keyframe.hands", r"'fist' is no HandPose; did you mean HAND_POSE_FIST\?$"),
-            (keyframe(pose={"root_position": [0, 1, 0]}), "keyframe.pose.root_position", r"\[0, 1, 0\] is no Vector3, {x, y, z}$"),
-            (keyframe(pose=choreography.Vector3()), "keyframe.pose", "a choreo.v1.Vector3 is no Pose, "),
-            (keyframe(pose={"rotations": [0, float("nan")]}), "keyframe.pose.rotations[1]", "nan is no finite number$"),
-            (keyframe(pose={"rotations": [0] * 7 + [math.nan]}), "keyframe.pose.rotations[7]", "nan is no finite number$"),
+            ([{"config": {"encoding": "QUATERNION"}}], "config.encoding", r"'QUATERNION' is not a .*; did you mean ROTATION_ENCODING_QUATERNION\?$"),
+            ([{"config": {"encoding": 77}}], "config.encoding", "77 is not a RotationEncoding; there are ROTATION_ENCODING_UNSPECIFIED, "),
+            (keyframe(hands="fist"), "keyframe.hands", r"'fist' is not a HandPose; did you mean HAND_POSE_FIST\?$"),
+            (keyframe(pose={"root_position": [0, 1, 0]}), "keyframe.pose.root_position", r"\[0, 1, 0\] is not a Vector3, {x, y, z}$"),
+            (keyframe(pose=choreography.Vector3()), "keyframe.pose", "a choreo.v1.Vector3 is not a Pose, "),
+            (keyframe(pose={"rotations": [0, float("nan")]}), "keyframe.pose.rotations[1]", "nan is not a finite number$"),
+            (keyframe(pose={"rotations": [0] * 7 + [math.nan]}), "keyframe.pose.rotations[7]", "nan is not a finite number$"),
             (keyframe(pose={"encoding": "ROTATION_ENCODING_QUATERNION", "rotations": [0] * 7 + [math.nan]}), "keyframe.pose.rotations[7]", "nan is no"),
             (keyframe(pose={"rotations": "none"}), "keyframe.pose.rotations", "'none' is not a list$"),
             (keyframe(pose={"rotations": 5}), "keyframe.pose.rotations", "5 is not a list$"),
             (keyframe(pose={"rotations": [[0, 0, 0]]}), "keyframe.pose.rotations[0]", r"\[0, 0, 0\] is not a number; rotations is one flat list: give "),
             (keyframe(mask={"joints": ["head"]}), "keyframe.mask.joints[0]", "'head' is not a whole number from -2147483648 to 2147483647$"),
-            (keyframe(id=5), "keyframe.id", "5 is no str$"),
+            (keyframe(id=5), "keyframe.id", "5 is not a str$"),
             (keyframe(frame=3), "keyframe.frame", "given beside time; there is one of frame, time, interval_after_previous$"),
-            ([{"config": {"allow_inexact_resume": "no"}}], "config.allow_inexact_resume", "'no' is no bool$"),
+            ([{"config": {"allow_inexact_resume": "no"}}], "config.allow_inexact_resume", "'no' is not a bool$"),
             *(([{"config": {"seed": seed}}], "config.seed", ".* is not a whole number from 0 to 18446744073709551615$") for seed in (1.5, -1, 2**64, "7x")),
-            ([CONFIG, {"keyframe": None}], "keyframe", "None is no Keyframe, "),
-            ([CONFIG, {"remove_keyframe": None}], "remove_keyframe", "None is no RemoveKeyframe, "),
-            ([CONFIG, None], "requests[1]", "None is no StreamDanceRequest, {config, audio, "),
+            ([CONFIG, {"keyframe": None}], "keyframe", "None is not a Keyframe, "),
+            ([CONFIG, {"remove_keyframe": None}], "remove_keyframe", "None is not a RemoveKeyframe, "),
+            ([CONFIG, None], "requests[1]", "None is not a StreamDanceRequest, {config, audio, "),
         ):
             error = self.assert_refused("", self.dance, *requests)
             ((named, said),) = error.violations
@@ -83,11 +83,11 @@ class CheckTest(unittest.TestCase):
             number = re.search(r"rotations\[(\d+)\]$", named)
             width = 4 if "QUATERNION" in str(requests) else 3
             self.assertEqual(error.violations[0].joint, number and int(number[1]) // width)
-        self.assert_refused("requests: None is no iterable", lambda: list(self.client.stream_dance(None)))
+        self.assert_refused("requests: None is not an iterable", lambda: list(self.client.stream_dance(None)))
         for one in ({"config": {}}, choreography.StreamDanceRequest()):
             self.assert_refused("requests: is one request: put it in a list", lambda one=one: list(self.client.stream_dance(one)))
-        self.assert_refused("rank_by: 'LIKELIHOOD' is no RankBy; did you mean", self.client.generate_transition, {"rank_by": "LIKELIHOOD"})
-        self.assert_refused("request: None is no GenerateTransitionRequest", self.client.generate_transition, None)
+        self.assert_refused("rank_by: 'LIKELIHOOD' is not a RankBy; did you mean", self.client.generate_transition, {"rank_by": "LIKELIHOOD"})
+        self.assert_refused("request: None is not a GenerateTransitionRequest", self.client.generate_transition, None)
 
     def test_lists_of_messages_are_lists_by_whatever_protobuf_there_is(self):
         program = """

@@ -167,7 +167,7 @@ class ClientTest(unittest.TestCase):
                     self.assert_refused("INVALID_ARGUMENT", f"^token_file: no file {mine}$", client.info)
                     mine.write_text("guessed\n")
                     dance = lambda: list(client.stream_dance([{"config": {"frames": 30}}]))
-                    self.assert_refused("UNAUTHENTICATED", "^nobody", dance)
+                    self.assert_refused("UNAUTHENTICATED", "^that token is unknown", dance)
                     mine.write_text("secret\n")
                     self.assertTrue(dance()[-1].HasField("summary"))
                     request = choreography.GenerateTransitionRequest(config={}, frames=9)
@@ -229,12 +229,12 @@ class ClientTest(unittest.TestCase):
                 ("http://one:50051", {}, "addresses: http://one:50051 is a URL; use HOST:PORT, and the option tls for TLS$"),
                 ("dns:///one", {}, "addresses: dns:///one has no port; use HOST:PORT$"),
                 (far, {"tls": True, "token": "secret\n"}, "token: it begins or ends with spaces or a newline; strip it$"),
-                (far, {"tls": True, "token": b"secret"}, "token: a bytes is no str$"),
+                (far, {"tls": True, "token": b"secret"}, "token: a bytes is not a str$"),
                 (far, {"ca_certificate": own.read_text()}, 'ca_certificate: "the text" needs TLS, which is off$'),
                 (far, {"tls": True, "ca_certificate": own_key.read_text()}, "ca_certificate: the text holds no certificate in PEM"),
                 (far, {"tls": True, "client_certificate": own.read_text(), "client_key": authority.key.read_text()}, "client_key: the text is not the key of the text"),
                 (far, {"retry_s": "long"}, "retry_s: a str is not a number$"),
-                (far, {"tls": "yes"}, "tls: a str is no bool$"),
+                (far, {"tls": "yes"}, "tls: a str is not a bool$"),
                 (far, {"retry_s": -1}, "retry_s: -1 is not a finite number >= 0$"),
             ):
                 self.assert_refused("INVALID_ARGUMENT", "^" + message, Client, addresses, **options)
@@ -263,7 +263,7 @@ class ClientTest(unittest.TestCase):
                     ],
                 )
                 reasons = [event.keyframe_rejected.reason for event in events[-len(REFUSED_HERE) :]]
-                for reason, pattern in zip(reasons, ("'soon' is no finite", "nan is no finite", "none of frame, time", "5 is no str", "'wave' is no Keyframe")):
+                for reason, pattern in zip(reasons, ("'soon' is not a finite", "nan is not a finite", "none of frame, time", "5 is not a str", "'wave' is not a Keyframe")):
                     self.assertRegex(reason, f"^{pattern}")
                 answers, resumes = dance_and_kill(source, is_time)
                 ((address, exact, code),) = [(resumed.address, resumed.exact, resumed.because.code) for resumed in resumes]

@@ -13,6 +13,6 @@ export function requireObject(name, value, wanted) {
 
 /** A number that counts. Throws for others. */
 export function positive(name, value) {
-  if (!(Number.isFinite(value) && value > 0)) throw new TypeError(`${name}: ${value} is no finite number above 0`);
+  if (!(Number.isFinite(value) && value > 0)) throw new TypeError(`${name}: ${value} is not a finite number above 0`);
   return value;
 }

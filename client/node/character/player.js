@@ -46,7 +46,7 @@ export class Player {
   }
 
   at(seconds) {
-    if (!Number.isFinite(seconds)) throw new TypeError(`seconds: ${seconds} is no finite number`);
+    if (!Number.isFinite(seconds)) throw new TypeError(`seconds: ${seconds} is not a finite number`);
     this.#forget(seconds);
     const found = this.#find(seconds * this.#rate);
     const pose = found.pose && this.#withoutJump(found, seconds);

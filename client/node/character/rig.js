@@ -68,7 +68,7 @@ export function orderOf(bones) {
   const order = [];
   const children = bones.map(() => []);
   bones.forEach(({ parent }, at) => {
-    if (!Number.isInteger(parent) || parent < -1 || parent >= bones.length) throw new TypeError(`bones[${at}].parent: ${parent} is no bone, and not -1`);
+    if (!Number.isInteger(parent) || parent < -1 || parent >= bones.length) throw new TypeError(`bones[${at}].parent: ${parent} is not a bone, and not -1`);
     if (parent < 0) order.push(at);
     else children[parent].push(at);
   });

@@ -87,7 +87,7 @@ class PageDance {
 
   async setKey(key) {
     if (typeof key !== 'object' || key === null || Array.isArray(key)) {
-      throw new DanceError(`key: ${key === null ? 'null' : typeof key} is no {pose} and no {rotations}`, { status: 400, code: 'INVALID_ARGUMENT' });
+      throw new DanceError(`key: ${key === null ? 'null' : typeof key} is neither {pose} nor {rotations}`, { status: 400, code: 'INVALID_ARGUMENT' });
     }
     const said = { id: this.#pending.newId(), time: this.soon(), ...key };
     this.#pending.add(said);

@@ -16,7 +16,7 @@ const ofRotations = ['id', 'time', 'rotations'];
  * suggests. `dancer`: {here, time}, where the dancer is in the newest frame, [x, z], which is what a `place` of 'here' means.
  */
 export function editsOf(body, skeleton, dancer, warn) {
-  if (!isObject(body)) throw invalid('key', `${quoted(body)} is no {id, time, pose} and no {id, time, rotations}`);
+  if (!isObject(body)) throw invalid('key', `${quoted(body)} is neither {id, time, pose} nor {id, time, rotations}`);
   const { id = randomUUID(), time, rotations, place } = body;
   requireId(id);
   if (!('frame' in body) || isObject(rotations)) requireTime(time);
@@ -29,7 +29,7 @@ export function editsOf(body, skeleton, dancer, warn) {
 
 function requireId(id) {
   const bytes = typeof id === 'string' ? Buffer.byteLength(id) : undefined;
-  if (bytes === undefined) throw invalid('id', `${quoted(id)} is no text`);
+  if (bytes === undefined) throw invalid('id', `${quoted(id)} is not a text`);
   if (!(bytes >= 1 && bytes <= mostBytesOfId)) throw invalid('id', `has ${bytes} bytes, not 1 to ${mostBytesOfId}`);
 }
 

@@ -16,7 +16,7 @@ const defaults = { path: '/dance', away: 5, keep: 8 << 20, behind: 10, onResume:
 /** See index.d.ts. */
 export function serveDance(client, begin, given = {}) {
   for (const name of Object.keys(given)) if (!Object.hasOwn(defaults, name)) throw invalid(name, `no option; ${hint(name, Object.keys(defaults))}`);
-  if (typeof begin !== 'function') throw invalid('begin', `${begin} is no function that says what to dance`);
+  if (typeof begin !== 'function') throw invalid('begin', `${begin} is not a function that says what to dance`);
   const server = new DanceServer(client, begin, { ...defaults, ...given, onFailed: given.onFailed ?? onFailed });
   return Object.assign((request, response) => server.answer(request, response), { close: () => server.close() });
 }

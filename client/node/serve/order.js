@@ -16,7 +16,7 @@ const mostSeconds = 3600; // of a dance: 108 000 frames
 
 /** Throws ChoreoError, which names the field, for an invalid order. */
 export function requireOrder(order) {
-  if (!isObject(order)) throw invalid('order', `${quoted(order)} is no {${names.join(', ')}}`);
+  if (!isObject(order)) throw invalid('order', `${quoted(order)} is not {${names.join(', ')}}`);
   for (const name of Object.keys(order)) if (!names.includes(name)) throw invalid(name, `no field of an order; ${hint(name, names)}`);
   requirePositive('seconds', order.seconds);
   if (order.seconds > mostSeconds) throw invalid('seconds', `${order.seconds} s is more than an hour, ${mostSeconds} s`);
@@ -30,7 +30,7 @@ export function requireOrder(order) {
 
 /** Requests before the dance begins. */
 function requireKeys(keys) {
-  if (!Array.isArray(keys)) throw invalid('keys', `${quoted(keys)} is no list of requests, as readKeys() gives it`);
+  if (!Array.isArray(keys)) throw invalid('keys', `${quoted(keys)} is not a list of requests, as readKeys() gives it`);
   keys.forEach((key, at) => {
     try {
       checked('StreamDanceRequest', key, '');

@@ -25,10 +25,10 @@ export class PageClock {
 
   /** What a page tells, {time, paused}. */
   tell(body) {
-    if (!isObject(body)) throw invalid('clock', `${quoted(body)} is no {time, paused}`);
+    if (!isObject(body)) throw invalid('clock', `${quoted(body)} is not {time, paused}`);
     const { time, paused } = body;
     if (number(time, 'time') < 0) throw invalid('time', `${time} s is before 0`);
-    if (typeof paused !== 'boolean') throw invalid('paused', `${quoted(paused)} is no boolean`);
+    if (typeof paused !== 'boolean') throw invalid('paused', `${quoted(paused)} is not a boolean`);
     this.#at = time;
     this.#since = paused ? undefined : performance.now();
     this.#speed = 1;

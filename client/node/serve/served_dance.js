@@ -68,7 +68,7 @@ export class ServedDance {
   /** The number of the event after a page's `last` one; undefined if that event is forgotten. */
   after(last) {
     const next = /^\d+$/.test(last) ? Number(last) + 1 : NaN;
-    if (!(next <= this.#dropped + this.#told.length)) throw new Refusal(400, `${last} is no event`);
+    if (!(next <= this.#dropped + this.#told.length)) throw new Refusal(400, `${last} is not an event`);
     return next < this.#dropped ? undefined : next;
   }
 

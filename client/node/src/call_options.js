@@ -7,21 +7,21 @@ const firstOfOurs = Date.UTC(2000); // an earlier number was probably meant as m
 
 function aFunction(name) {
   return (value) => {
-    if (typeof value !== 'function') throw invalid(name, `${quoted(value)} is no function`);
+    if (typeof value !== 'function') throw invalid(name, `${quoted(value)} is not a function`);
   };
 }
 
 const checks = {
   signal: (value) => {
-    if (typeof value.addEventListener !== 'function' || typeof value.aborted !== 'boolean') throw invalid('signal', `${quoted(value)} is no AbortSignal`);
+    if (typeof value.addEventListener !== 'function' || typeof value.aborted !== 'boolean') throw invalid('signal', `${quoted(value)} is not an AbortSignal`);
   },
   deadline: (value) => {
     const time = value instanceof Date ? value.getTime() : value;
-    if (typeof time !== 'number' || Number.isNaN(time)) throw invalid('deadline', `${quoted(value)} is no date`);
+    if (typeof time !== 'number' || Number.isNaN(time)) throw invalid('deadline', `${quoted(value)} is not a date`);
     if (time === Infinity) return;
-    if (time - Date.now() >= mostAhead) throw invalid('deadline', `${quoted(value)} is no date within 10 000 years`);
+    if (time - Date.now() >= mostAhead) throw invalid('deadline', `${quoted(value)} is not a date within 10 000 years`);
     if (typeof value === 'number' && time < firstOfOurs) {
-      throw invalid('deadline', `${value} is no date of today; numbers are milliseconds since 1970, as Date.now() + 500`);
+      throw invalid('deadline', `${value} is not a date of today; numbers are milliseconds since 1970, as Date.now() + 500`);
     }
   },
   cards: (value) => {

@@ -48,7 +48,7 @@ export function requireSendable(audio, remedy) {
 function message(type, value, path, name, encoding) {
   const names = Object.keys(type.fields);
   if (typeof value !== 'object' || value === null || Symbol.iterator in value || types.isPromise(value)) {
-    throw invalid(path || name, `${quoted(value)} is no ${type.name}, {${names.join(', ')}}`);
+    throw invalid(path || name, `${quoted(value)} is not a ${type.name}, {${names.join(', ')}}`);
   }
   const copy = {};
   const chosen = {}; // of each oneof
@@ -70,7 +70,7 @@ function message(type, value, path, name, encoding) {
 
 function list(field, value, path, encoding) {
   const isOfNumbers = !field.resolvedType && ArrayBuffer.isView(value) && typeof value[Symbol.iterator] === 'function';
-  if (!Array.isArray(value) && !isOfNumbers) throw invalid(path, `${quoted(value)} is no array`);
+  if (!Array.isArray(value) && !isOfNumbers) throw invalid(path, `${quoted(value)} is not an array`);
   if (!field.resolvedType && Array.isArray(value[0])) throw invalid(`${path}[0]`, `${quoted(value[0])} is not a number; ${field.name} is one flat list: give lists.flat()`);
   return Array.from(value, (one, index) => single(field, one, `${path}[${index}]`, encoding));
 }
@@ -83,17 +83,17 @@ function single(field, value, path, encoding) {
   if (type in ranges) return whole(type, value, path);
   if (type === 'double' || type === 'float') return real(value, path);
   const wanted = type === 'bool' ? 'boolean' : type;
-  if (typeof value !== wanted) throw invalid(path, `${quoted(value)} is no ${wanted}`);
+  if (typeof value !== wanted) throw invalid(path, `${quoted(value)} is not a ${wanted}`);
   return value;
 }
 
 function label({ name, values }, value, path) {
   if (Object.hasOwn(values, value) || Object.values(values).includes(value)) return value;
-  throw invalid(path, `${quoted(value)} is no ${name}; ${hint(String(value), Object.keys(values))}`);
+  throw invalid(path, `${quoted(value)} is not a ${name}; ${hint(String(value), Object.keys(values))}`);
 }
 
 function real(value, path) {
-  if (!Number.isFinite(value)) throw invalid(path, `${quoted(value)} is no finite number`);
+  if (!Number.isFinite(value)) throw invalid(path, `${quoted(value)} is not a finite number`);
   return value;
 }
 
@@ -112,7 +112,7 @@ function bytes(value, path, encoding) {
   if (types.isAnyArrayBuffer(value)) return new Uint8Array(value);
   if (!ArrayBuffer.isView(value)) {
     const text = typeof value === 'string' ? '; of a file readFile() gives them, of base64 Buffer.from()' : '';
-    throw invalid(path, `${quoted(value)} is no bytes: a Uint8Array, an ArrayBuffer or the encoding's samples${text}`);
+    throw invalid(path, `${quoted(value)} is not bytes: a Uint8Array, an ArrayBuffer or the encoding's samples${text}`);
   }
   const kind = value.constructor.name;
   const known = api.lookupEnum('choreo.v1.AudioEncoding').valuesById[encoding] ?? encoding;

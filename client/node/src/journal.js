@@ -20,7 +20,7 @@ export class Journal {
     const begin = requests?.[Symbol.asyncIterator] ?? requests?.[Symbol.iterator];
     const isOne = typeof requests === 'object' && requests !== null && !begin;
     if (isOne) throw invalid('requests', 'is one object: put it in a list, [{ config }, ...]');
-    if (typeof requests !== 'object' || !begin) throw invalid('requests', `${typeof requests} is no iterable of messages`);
+    if (typeof requests !== 'object' || !begin) throw invalid('requests', `${typeof requests} is not an iterable of messages`);
     this.#source = begin.call(requests);
   }
 

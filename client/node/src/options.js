@@ -36,7 +36,7 @@ export function checkOptions(addresses, given) {
     const wanted = typeof defaults[name];
     // Does not show the value of a text option, which may be a secret.
     const shown = wanted === 'string' ? (value?.constructor.name ?? value) : quoted(value);
-    if (typeof value !== wanted) throw invalid(name, `${shown} is no ${wanted}`);
+    if (typeof value !== wanted) throw invalid(name, `${shown} is not a ${wanted}`);
     if (typeof value === 'number' && !(value >= 0 && Number.isFinite(value))) throw invalid(name, `${value} is not a finite number >= 0`);
   }
   if (options.silence > 0 && options.silence < leastSilence) {
@@ -51,7 +51,7 @@ export function checkOptions(addresses, given) {
 
 // Refuses addresses that gRPC would misread as a host name, or with another port.
 function checkAddress(address) {
-  if (typeof address !== 'string' || address === '') throw invalid('addresses', `${quoted(address)} is no HOST:PORT`);
+  if (typeof address !== 'string' || address === '') throw invalid('addresses', `${quoted(address)} is not a HOST:PORT`);
   if (/^https?:/i.test(address)) throw invalid('addresses', `${address} is a URL; use HOST:PORT, and the option tls for TLS`);
   if (/^(unix|unix-abstract|xds):/.test(address)) return;
   const port = /:(\d+)$/.exec(address)?.[1];

@@ -58,7 +58,7 @@ def _message(descriptor, value, path, name, encoding):
     names = [field.name for field in descriptor.fields]
     if not isinstance(value, collections.abc.Mapping):
         given = f"a {value.DESCRIPTOR.full_name}" if isinstance(value, Message) else quoted(value)
-        raise invalid(path or name, f"{given} is no {descriptor.name}, {{{', '.join(names)}}}")
+        raise invalid(path or name, f"{given} is not a {descriptor.name}, {{{', '.join(names)}}}")
     fields, chosen = {}, {}
     for key, one in value.items():
         at = f"{path}.{key}" if path else str(key)
@@ -107,16 +107,16 @@ def _single(field, value, path, encoding):
     if field.type == Field.TYPE_BOOL and isinstance(value, int) and value in (0, 1):
         return bool(value)
     if field.type in (Field.TYPE_STRING, Field.TYPE_BOOL):
-        raise invalid(path, f"{quoted(value)} is no {'str' if field.type == Field.TYPE_STRING else 'bool'}")
+        raise invalid(path, f"{quoted(value)} is not a {'str' if field.type == Field.TYPE_STRING else 'bool'}")
     if not isinstance(value, numbers.Real) or isinstance(value, bool) or not math.isfinite(value):
-        raise invalid(path, f"{quoted(value)} is no finite number")
+        raise invalid(path, f"{quoted(value)} is not a finite number")
     return float(value)
 
 
 def _label(kind, value, path):
     known = value in kind.values_by_name if isinstance(value, str) else value in kind.values_by_number
     if not known:
-        raise invalid(path, f"{quoted(value)} is no {kind.name}; {hint(value, list(kind.values_by_name))}")
+        raise invalid(path, f"{quoted(value)} is not a {kind.name}; {hint(value, list(kind.values_by_name))}")
     return value
 
 
@@ -136,7 +136,7 @@ def _bytes(value, path, encoding):
     try:
         view = memoryview(value)
     except TypeError:
-        raise invalid(path, f"{quoted(value)} is no bytes, and no buffer of the encoding's samples") from None
+        raise invalid(path, f"{quoted(value)} is not bytes, and no buffer of the encoding's samples") from None
     known = choreography.AudioEncoding.Name(encoding) if isinstance(encoding, int) and encoding else encoding or "nothing"
     if view.itemsize > 1 and view.format.lstrip("@=<") != _SAMPLES.get(known):
         raise invalid(path, f"samples of format {view.format!r} are not what config.audio_format.encoding says, {known}")

@@ -23,7 +23,7 @@ class Journal:
         if isinstance(requests, (collections.abc.Mapping, choreography.StreamDanceRequest)):
             raise invalid("requests", "is one request: put it in a list, [{'config': ...}, ...]")
         if not hasattr(requests, "__iter__"):
-            raise invalid("requests", f"{quoted(requests)} is no iterable of messages")
+            raise invalid("requests", f"{quoted(requests)} is not an iterable of messages")
         self._source = iter(requests)
         self._asking = threading.Lock()
         self._said = []  # None: discarded

@@ -72,7 +72,7 @@ class Options:
         for name, (kinds, what) in _KINDS.items():
             value, unset = getattr(self, name), getattr(Options, name)
             if not isinstance(value, kinds) and not (value is None and unset is None):
-                raise invalid(name, f"a {type(value).__name__} is no {what}")  # the value may be a secret
+                raise invalid(name, f"a {type(value).__name__} is not a {what}")  # the value may be a secret
 
     def _check_token(self, addresses):
         if self.token is None and self.token_file is None:
@@ -152,7 +152,7 @@ _KINDS = {
 def _check_address(address):
     """Refuses addresses that gRPC would misread as a host name, or with another port."""
     if not isinstance(address, str) or not address:
-        raise invalid("addresses", f"{address!r} is no HOST:PORT")
+        raise invalid("addresses", f"{address!r} is not a HOST:PORT")
     if re.match("(?i)https?:", address):
         raise invalid("addresses", f"{address} is a URL; use HOST:PORT, and the option tls for TLS")
     if re.match("(unix|unix-abstract|xds):", address):
