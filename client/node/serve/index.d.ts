@@ -11,8 +11,8 @@ export interface DanceOrder {
    * which others may be. Without it the dance is silent.
    */
   music?: Uint8Array | ArrayBuffer | Iterable<StreamDanceRequest> | AsyncIterable<StreamDanceRequest>;
-  /** Seed, model, style and the like. serveDance() sets the others itself. */
-  config?: Omit<DanceConfig, 'frames' | 'encoding' | 'generate_until' | 'reject_invalid_keys'>;
+  /** Seed, model, style and the like. frames, encoding, generate_until and reject_invalid_keys are refused: serveDance() sets them. */
+  config?: DanceConfig;
   /** Said before the dance begins: the keys of readKeys(), controls. */
   keys?: StreamDanceRequest[];
   /** Times as fast as time, until the page tells where it plays, which follow() does; default 1. */
