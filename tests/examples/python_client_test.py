@@ -350,7 +350,7 @@ class ClientTest(unittest.TestCase):
             self.assertTrue(told.models and told.draining)
             # The next server is tried at once, and a refusal says why.
             with Client(server.address, even_draining=True, retry_s=0) as other:
-                error = self.assert_refused("UNAVAILABLE", "going away", list, other.stream_dance([{"config": {"frames": 30}}]))
+                error = self.assert_refused("UNAVAILABLE", "draining", list, other.stream_dance([{"config": {"frames": 30}}]))
             self.assertEqual(error.reason, "DRAINING")
             patience = Patience(Options(first_backoff_s=2), Cancellation(), 2)
             self.assertEqual(patience.next(error, True, "a:1"), 0)
@@ -383,7 +383,7 @@ class ClientTest(unittest.TestCase):
                 next(dance)
                 while "DEADLINE_EXCEEDED" not in server.log():
                     time.sleep(0.02)
-                with self.assertRaisesRegex(ChoreoError, r"limits\.unread_s \(--unread-seconds\): read faster, or go on") as raised:
+                with self.assertRaisesRegex(ChoreoError, r"limits\.unread_s \(--unread-seconds\): read faster, or resume") as raised:
                     list(dance)
         self.assertEqual(raised.exception.code, "DEADLINE_EXCEEDED")
 

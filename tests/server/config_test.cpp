@@ -253,7 +253,7 @@ TEST(ServerConfigTest, ErrorsAreOfOneShape) {
   EXPECT_EQ(said({"--workers", "many"}),
             "choreod: --workers: \"many\" is not a whole number in [0, 1024]\n");
   EXPECT_EQ(said({"--max-load", "much"}),
-            "choreod: --max-load: \"much\" is no number in [0.1, 2]\n");
+            "choreod: --max-load: \"much\" is not a number in [0.1, 2]\n");
   EXPECT_EQ(said({"--insecure=maybe"}),
             "choreod: --insecure: \"maybe\" is neither true nor false\n");
   EXPECT_EQ(said({"--workers"}), "choreod: --workers: has no value\n");
