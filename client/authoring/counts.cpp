@@ -68,8 +68,12 @@ double CountAt(double seconds, const Counts& counted) {
 double SecondOfFrame(int64_t frame, double fps, std::span<const double> beats) {
   const double own = static_cast<double>(frame) / fps;
   if (beats.size() < 2) return own;
-  const double second = SecondAt(std::round(4 * PlaceAmong(own, beats)) / 4, beats);
-  return std::llround(second * fps) == frame ? second : own;
+  const double place = PlaceAmong(own, beats);
+  for (const double parts : {1, 2, 4}) {
+    const double second = SecondAt(std::round(place * parts) / parts, beats);
+    if (std::llround(second * fps) == frame) return second;
+  }
+  return own;
 }
 
 double Stretched(double seconds, double begin, double times, std::span<const double> beats) {
