@@ -65,17 +65,6 @@ double CountAt(double seconds, const Counts& counted) {
   return PlaceAmong(seconds, counted.beats) - static_cast<double>(counted.one) + 1;
 }
 
-double SecondOfFrame(int64_t frame, double fps, std::span<const double> beats) {
-  const double own = static_cast<double>(frame) / fps;
-  if (beats.size() < 2) return own;
-  const double place = PlaceAmong(own, beats);
-  for (const double parts : {1, 2, 4}) {
-    const double second = SecondAt(std::round(place * parts) / parts, beats);
-    if (std::llround(second * fps) == frame) return second;
-  }
-  return own;
-}
-
 double Stretched(double seconds, double begin, double times, std::span<const double> beats) {
   if (beats.size() < 2) return begin + times * (seconds - begin);
   const double from = PlaceAmong(begin, beats);

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
@@ -42,11 +41,6 @@ struct WrittenTime {
 
 /// Converts a second to a count, in music with at least two beats: the inverse of WrittenTime::In.
 double CountAt(double seconds, const Counts& counted);
-
-/// Returns the second for which a frame stands: that of the count, half or quarter of a count which
-/// is rounded to this frame, or the frame's own. So a time that follows from it in counts is
-/// rounded only once.
-double SecondOfFrame(int64_t frame, double fps, std::span<const double> beats);
 
 /// Multiplies the distance of `seconds` from `begin` by `times`: in counts if the music has at
 /// least two beats, otherwise in seconds.

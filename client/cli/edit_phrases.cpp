@@ -38,8 +38,8 @@ void EditSession::Repeat(double from_s, double until_s, const std::string& later
     throw InvalidArgument("--repeat", later + " is not later: it must be at least one frame");
   std::vector<client::KeyEdit> phrase = Phrase("--repeat", from_s, until_s);
   for (client::KeyEdit& edit : phrase) {
-    edit.key.frame = FrameInDance("--repeat", moved(Counted(*edit.key.frame)));
-    for (client::KeyPose& held : edit.held) held.frame = Frame(moved(Counted(*held.frame)));
+    edit.key.frame = FrameInDance("--repeat", moved(Seconds(*edit.key.frame)));
+    for (client::KeyPose& held : edit.held) held.frame = Frame(moved(Seconds(*held.frame)));
   }
   EndWithDance(&phrase.back());
   const int64_t first = *phrase.front().key.frame;
@@ -130,7 +130,7 @@ std::vector<client::KeyEdit> EditSession::Phrase(const char* field, double from_
 
 void EditSession::Stretch(double from_s, double until_s, double times) {
   const auto stretched = [&](int64_t frame) {
-    return Frame(authoring::Stretched(Counted(frame), from_s, times, counts_.beats));
+    return Frame(authoring::Stretched(Seconds(frame), from_s, times, counts_.beats));
   };
   std::vector<client::KeyEdit> phrase = Phrase("--stretch", from_s, until_s);
   const std::vector<client::KeyEdit> unstretched = phrase;

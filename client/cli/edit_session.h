@@ -69,10 +69,6 @@ class EditSession {
  private:
   int64_t Frame(double seconds) const { return std::llround(seconds * edit_.model.fps); }
   double Seconds(int64_t frame) const { return static_cast<double>(frame) / edit_.model.fps; }
-  /// The second of a key at this frame, from which a time in counts follows.
-  double Counted(int64_t frame) const {
-    return authoring::SecondOfFrame(frame, edit_.model.fps, counts_.beats);
-  }
 
   void CheckKeys() const;
   void CheckAround(double seconds) const;

@@ -178,24 +178,6 @@ TEST_F(ArrangeTest, RepeatsAPhraseOnItsCounts) {
              before.frames[static_cast<size_t>(keys[2])]);
 }
 
-// Beats of 14.1 frames: a key on the sixth beat is on frame 85, not 84.6.
-TEST_F(ArrangeTest, MovesAPhraseByWholeCounts) {
-  std::ofstream beats(folder_ / "beats.txt");
-  for (int beat = 0; beat <= 20; ++beat) beats << 0.47 * beat << '\n';
-  beats.close();
-  std::ofstream(folder_ / "keys.json")
-      << R"({"keyframes": [{"id": "a", "time": 2.82, "pose": "dab"}]})";
-  ASSERT_EQ(Dance("counted", "--beats " + At("beats.txt") + " --keyframes " + At("keys.json")).code,
-            0);
-  const auto keys = [&](const std::string& edit) {
-    const Outcome outcome = Edit("counted", edit, "moved", Server());
-    EXPECT_EQ(outcome.code, 0) << outcome.said;
-    return Keys("moved").back();
-  };
-  EXPECT_EQ(keys("--repeat 2.5 3.2 8c"), 197);   // 14 beats: 197.4
-  EXPECT_EQ(keys("--stretch 0.47 3.2 2"), 155);  // 11 beats: 155.1
-}
-
 TEST_F(ArrangeTest, MirrorsAPhraseWhereTheDancerStands) {
   const std::vector<int64_t> keys = Keys("dance");
   ASSERT_GE(keys.size(), 5U);

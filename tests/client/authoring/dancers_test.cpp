@@ -311,14 +311,6 @@ TEST(CountsTest, ContinueAtTheirTempo) {
               [] { authoring::ParseTime("2c", "x").After(0, {}, "x"); });
 }
 
-TEST(CountsTest, AFrameStandsForItsCount) {
-  const std::vector<double> beats = {0, 0.47, 0.94};
-  EXPECT_DOUBLE_EQ(authoring::SecondOfFrame(28, 30, beats), 0.94);
-  EXPECT_DOUBLE_EQ(authoring::SecondOfFrame(7, 30, beats), 0.235);
-  EXPECT_DOUBLE_EQ(authoring::SecondOfFrame(10, 30, beats), 10.0 / 30);
-  EXPECT_DOUBLE_EQ(authoring::SecondOfFrame(28, 30, {}), 28.0 / 30);
-}
-
 TEST(CountsTest, NameMomentsAsTheRulerDoes) {
   const std::vector<double> beats = {1, 1.5, 2, 3}, ones = {1.5};
   const authoring::Counts counts = authoring::CountsFrom(beats, ones);
