@@ -143,9 +143,8 @@ KeyPose ReadNumbers(const json& value, const std::string& field, const Skeleton&
       continue;
     }
     if (found) {
-      throw InvalidArgument(
-          field + "." + names.rotations,
-          std::string("stands beside ") + found->rotations + "; only one may be there");
+      throw InvalidArgument(field + "." + names.rotations,
+                            std::string("cannot be combined with ") + found->rotations);
     }
     found = &names;
   }

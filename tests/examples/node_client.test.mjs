@@ -353,7 +353,7 @@ test('who reads too slowly is told the limit', () =>
       const rest = async () => {
         for await (const answer of dance) assert.ok(answer);
       };
-      await assert.rejects(rest, { code: 'DEADLINE_EXCEEDED', message: /limits\.unread_s \(--unread-seconds\): read faster, or go on/ });
+      await assert.rejects(rest, { code: 'DEADLINE_EXCEEDED', message: /limits\.unread_s \(--unread-seconds\): read faster, or resume/ });
     }),
   ));
 
