@@ -229,7 +229,7 @@ TEST_F(DancersTest, AreAllCheckedBeforeTheFirstDances) {
   refused(
       R"("keyframes": [{"time": 15, "pose": "kick"}])",
       "dancers.json:dancers[1]:keyframes[0].time: key \"key1\" at 15 s is after the dance's end");
-  refused(R"("after": 10)", "dancers[1].after: 10 s later she would not dance");
+  refused(R"("after": 10)", "dancers[1].after: 10 s later is after the end");
 }
 
 TEST_F(DancersTest, RefuseImpossibleRequests) {
@@ -247,12 +247,13 @@ TEST_F(DancersTest, RefuseImpossibleRequests) {
   expect_failure(ada + "," + R"({"id": "ada", "place": [1, 0]})", "dancers[1].id: \"ada\" is an");
   expect_failure(R"({"id": "../ada", "place": [0, 0]})", "has more than letters, digits, _ and -");
   expect_failure(R"({"id": "ada"})", "dancers[0].place: is missing: [x, z]");
-  expect_failure(R"({"place": [0, 0, 1]})", "dancers[0].place: [0,0,1] is no place");
+  expect_failure(R"({"place": [0, 0, 1]})", "dancers[0].place: [0,0,1] is not a place");
   expect_failure(R"({"place": [0, 0], "turn": 3})", "dancers[0].turn");
   expect_failure(R"({"place": [0, 0], "facing": 400})", "is not a number from -360 to 360");
   expect_failure(R"({"place": [0, 0], "after": "soon"})", "dancers[0].after: \"soon\" is neither");
-  expect_failure(R"({"place": [0, 0], "after": 10})", "dancers[0].after: 10 s later she would not");
-  expect_failure(R"({"place": [0, 0], "seed": -1})", "dancers[0].seed: -1 is no whole number");
+  expect_failure(R"({"place": [0, 0], "after": 10})",
+                 "dancers[0].after: 10 s later is after the end");
+  expect_failure(R"({"place": [0, 0], "seed": -1})", "dancers[0].seed: -1 is not a whole number");
   expect_failure(ada, "apart: 11 is not a number from 0 to 10", R"(, "apart": 11)");
   EXPECT_NE(DanceAll("--vmc 127.0.0.1:39539").code, 0);
 }
