@@ -39,14 +39,6 @@ int FallFrames(double height, double speed, double fps) {
   return std::max(1, static_cast<int>(std::ceil(seconds * fps)));
 }
 
-// The imbalance that moving the pelvis makes up for, square metres: its offset moves the centre of
-// mass, and its acceleration moves the zero moment point of a centre a metre high. What is farther
-// outside tells nothing about feet, and would make leaving the floor cheaper than standing.
-double MostUnbalanced(const FootworkOptions& options) {
-  const double metres = options.offset + options.acceleration / kGravity;
-  return metres * metres;
-}
-
 bool Carried(const FootTrack& foot, size_t frame) {
   return !foot.carried.empty() && foot.carried[frame];
 }
@@ -74,9 +66,7 @@ class FootPlanner {
       const double lift = std::max(0.0, kSoleHeight - foot.heights[i]);
       places_.Set(i,
                   {toes.x(), toes.z(), toes.x() * toes.x() + toes.z() * toes.z(), height * height});
-      const double most = MostUnbalanced(options);
-      const double here = std::min(foot.unbalanced[i], most);
-      const double there = std::min(beside.unbalanced[i], most);
+      const double here = foot.unbalanced[i], there = beside.unbalanced[i];
       const double flight = Carried(foot, i) ? 0 : grounded[i] ? kTooLong : options.flight_cost;
       support_.Set(
           i, {other[i] ? std::min(here, there) : here, other[i] ? there : flight, lift * lift, 0});

@@ -77,17 +77,6 @@ TEST(PlanContacts, HoveringBodyGetsContacts) {
   EXPECT_EQ(FramesInAir(PlanContacts(feet, kFps, {})), 0);
 }
 
-// A body that brakes hard has its zero moment point metres away, but its feet need not leave the
-// floor.
-TEST(PlanContacts, ABodyOutOfBalanceDoesNotHop) {
-  std::array<FootTrack, 2> feet = {Standing(0.1), Standing(-0.1)};
-  Lift(&feet[0], 28, 42, 0.3);
-  for (FootTrack& foot : feet) {
-    for (size_t i = 30; i < 40; ++i) foot.unbalanced[i] = 4;
-  }
-  EXPECT_EQ(FramesInAir(PlanContacts(feet, kFps, {})), 0);
-}
-
 TEST(PlanContacts, NoFlightLastsLongerThanTheLongest) {
   std::array<FootTrack, 2> feet = {Standing(0.1), Standing(-0.1)};
   for (FootTrack& foot : feet) Lift(&foot, 20, 28, 0.8);
