@@ -42,7 +42,7 @@ void RefuseUnusedOptions(const CLI::App& command, const PaperOptions& options) {
     const CLI::Option& given = *command.get_option(option);
     if (is_used || given.empty() || given.results().front() == given.get_default_str()) return;
     const bool flag = std::is_same_v<decltype(value), const bool&>;
-    throw InvalidArgument(option, std::string("is no ") + (flag ? "ablation" : "option") +
+    throw InvalidArgument(option, std::string("is not an ") + (flag ? "ablation" : "option") +
                                       " of the preset " + options.preset);
   });
   if (options.blend != 1 && options.preset != kDefaultPreset)

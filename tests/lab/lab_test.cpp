@@ -228,13 +228,13 @@ TEST_F(LabEval, RefusesImpossibleOptionsAtOnce) {
 
 TEST_F(LabEval, TrainingRefusesOptionsOutsideAPreset) {
   for (const auto& [options, why] : std::vector<std::pair<std::string, std::string>>{
-           {"ablation --one-lstm", "--one-lstm: is no ablation of the preset ablation"},
+           {"ablation --one-lstm", "--one-lstm: is not an ablation of the preset ablation"},
            {"default --hidden 64", "--hidden: is not an option of the preset default"},
-           {"harvey --no-keys", "--no-keys: is no ablation of the preset harvey"},
-           {"harvey --no-key-loss", "--no-key-loss: is no ablation of the preset harvey"},
+           {"harvey --no-keys", "--no-keys: is not an ablation of the preset harvey"},
+           {"harvey --no-key-loss", "--no-key-loss: is not an ablation of the preset harvey"},
            {"default --longest 20", "--longest: is not an option of the preset default"},
            {"controllers-paper --no-keys",
-            "--no-keys: is no ablation of the preset controllers-paper"}}) {
+            "--no-keys: is not an ablation of the preset controllers-paper"}}) {
     const Outcome outcome = Lab("train --run refused --preset " + options + kData, folder_.path());
     EXPECT_EQ(outcome.code, 1) << options;
     EXPECT_THAT(outcome.said, HasSubstr("choreo-lab: " + why)) << options;
