@@ -310,7 +310,7 @@ await inStudio(async ({ page, errors, until, settle, message, frames, scale, giv
       ['close.json', JSON.stringify({ keyframes: [key, { ...key, id: 'b' }] }), /close\.json:keyframes\[1\]\.time: key "b" stands closer than 2 frames to "a"/],
       ['held.json', JSON.stringify({ keyframes: [{ time: 1, pose: 'star_jump', place: [0, 0], hold: 2 }] }), /held\.json:keyframes\[0\]\.hold: .* m in the air/],
       ['turned.json', JSON.stringify({ keyframes: [{ ...key, rotations: Array(24).fill([0, 99, 0]) }] }), /rotations\[0\]: 99 rad exceeds/],
-      ['seed.json', JSON.stringify({ studio: 1, seed: -1, keyframes: [key] }), /seed\.json:seed: -1 is no whole number/],
+      ['seed.json', JSON.stringify({ studio: 1, seed: -1, keyframes: [key] }), /seed\.json:seed: -1 is not a whole number/],
       ['endless.json', JSON.stringify({ studio: 1, seconds: 1e300, keyframes: [key] }), /seconds: 1e\+300 is not above 0 and up to 3600/],
     ];
     for (const [name, content, words] of refused) {
