@@ -217,7 +217,7 @@ class Figures {
     };
     using Stats = SampleQueue::Stats;
     static constexpr Figure kFigures[] = {
-        {"workers", "Workers, each of which samples one transition at a time.", MetricType::Gauge,
+        {"workers", "Workers, which sample transitions in turns.", MetricType::Gauge,
          [](const Stats& stats) { return double(stats.workers); }},
         {"transitions_active", "Transitions in progress.", MetricType::Gauge,
          [](const Stats& stats) { return double(stats.active); }},
@@ -240,7 +240,7 @@ class Figures {
 
   void AddReloads(Families& out) const {
     const Reloads::States states = serving_.reloads.states();
-    out.Begin("last_reload_successful", "1 if the last reload succeeded completely, else 0.",
+    out.Begin("last_reload_successful", "0 if the last reload failed, wholly or in part, else 1.",
               MetricType::Gauge);
     for (size_t i = 0; i < states.size(); ++i)
       out.Add(states[i].good ? 1 : 0, {{"of", Reloads::kNames[i]}});

@@ -189,7 +189,8 @@ void AddEditCommand(CLI::App& program) {
       "another one replaces it, with a note. A TIME is in seconds, or in counts of --song: 1c is "
       "its first downbeat, 9c the 1 of the next eight, 9.5c half a beat later. Keys are first "
       "removed, then moved, stretched, repeated, mirrored and set; retakes come last. --seed, "
-      "--style, --path or --velocity alone dance all of it again, through the same keys. Whole "
+      "--style, --path, --velocity, --music-dynamics or --variation alone dance all of it again, "
+      "through the same keys. Whole "
       "dances are first cut, then mirrored, then joined.");
   command
       ->add_option("dance", options->dance,

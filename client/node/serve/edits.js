@@ -52,7 +52,7 @@ function ofJoints(body, skeleton) {
   return { keyframe: { id, time, pose: taken, mask: { joints } } };
 }
 
-/** What `read` returns or throws; the key file of one key is none of the page's. */
+/** Calls `read`, which reads the key as a key file of one key. Errors name the fields as the page does, without "keyframes[0]". */
 function asOwn(read) {
   try {
     return read();
