@@ -5,10 +5,10 @@
 #include <cstdio>
 #include <vector>
 
-#include "model/audio/bar_pointer.h"
-#include "model/audio/format.h"
-#include "model/audio/made_song.h"
-#include "model/audio/onset.h"
+#include "model/audio/beats/bar_pointer.h"
+#include "model/audio/beats/onset.h"
+#include "model/audio/music/made_song.h"
+#include "model/audio/signal/format.h"
 
 namespace choreo::bench {
 namespace {

@@ -20,9 +20,9 @@
 #include "client/live/beat_ear.h"
 #include "client/live/live_dance.h"
 #include "client/live/sound.h"
-#include "model/audio/beats.h"
-#include "model/audio/decode.h"
-#include "model/audio/made_song.h"
+#include "model/audio/beats/beats.h"
+#include "model/audio/decode/decode.h"
+#include "model/audio/music/made_song.h"
 #include "model/core/grid.h"
 #include "model/dance/beat_report.h"
 #include "model/dance/dance_music.h"
@@ -269,7 +269,7 @@ int main(int argc, char** argv) {
                      "First seed of made songs. Development had those below 1000000.");
   program.add_option("--patterns", patterns,
                      "First seed of made songs whose mean onsets are printed, as "
-                     "model/audio/bar_patterns.cpp has them.");
+                     "model/audio/beats/bar_patterns.cpp has them.");
   CLI11_PARSE(program, argc, argv);
   if (patterns) {
     bench::PrintBarPatterns(*patterns, 60);

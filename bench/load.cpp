@@ -14,11 +14,11 @@
 #include "client/authoring/local_server.h"
 #include "client/authoring/music.h"
 #include "client/authoring/pose_library.h"
-#include "client/cli/options.h"
-#include "model/audio/format.h"
-#include "model/audio/mfcc.h"
+#include "client/cli/options/options.h"
+#include "model/audio/signal/format.h"
+#include "model/audio/signal/mfcc.h"
 #include "model/core/error.h"
-#include "server/process_usage.h"
+#include "server/process/process_usage.h"
 
 /// Measures how many dances one choreod serves over gRPC, on a machine that also runs all its
 /// clients. The server has its defaults, or the environment's settings (choreod --help).

@@ -14,10 +14,10 @@
 
 #include "bench/lateness.h"
 #include "client/authoring/local_server.h"
-#include "client/cli/options.h"
-#include "model/audio/format.h"
+#include "client/cli/options/options.h"
+#include "model/audio/signal/format.h"
 #include "model/core/error.h"
-#include "server/process_usage.h"
+#include "server/process/process_usage.h"
 
 /// Runs one choreod for a long time with well-behaved and misbehaving clients. Checks whether its
 /// memory, threads and descriptors grow, and whether lateness of well-behaved clients increases.

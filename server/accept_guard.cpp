@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "server/caller.h"
+#include "server/connections/caller.h"
 
 namespace choreo {
 namespace {

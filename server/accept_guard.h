@@ -4,8 +4,8 @@
 #include <map>
 #include <string>
 
-#include "server/reset_guard.h"
-#include "server/tally.h"
+#include "server/connections/reset_guard.h"
+#include "server/telemetry/tally.h"
 
 namespace choreo {
 

@@ -3,7 +3,7 @@
 #include <grpc/compression.h>
 #include <grpcpp/resource_quota.h>
 
-#include "server/read_message.h"
+#include "server/messages/read_message.h"
 
 namespace choreo {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <grpcpp/server_builder.h>
 
-#include "server/config.h"
+#include "server/settings/config.h"
 
 namespace choreo {
 

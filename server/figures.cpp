@@ -14,12 +14,12 @@
 #include <utility>
 #include <vector>
 
-#include "server/caller.h"
-#include "server/frame_guard.h"
-#include "server/handshakes.h"
-#include "server/process_usage.h"
-#include "server/refusal.h"
-#include "server/status.h"
+#include "server/connections/caller.h"
+#include "server/connections/frame_guard.h"
+#include "server/connections/handshakes.h"
+#include "server/messages/refusal.h"
+#include "server/messages/status.h"
+#include "server/process/process_usage.h"
 
 namespace choreo {
 namespace {

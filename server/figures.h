@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "server/serving.h"
+#include "server/calls/serving.h"
 
 namespace choreo {
 

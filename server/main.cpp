@@ -7,12 +7,12 @@
 #include "model/core/threads.h"
 #include "model/engine/sampling_cost.h"
 #include "model/samplers/samplers.h"
-#include "server/config.h"
-#include "server/listener.h"
-#include "server/log.h"
+#include "server/connections/listener.h"
 #include "server/model_folder.h"
 #include "server/serve.h"
 #include "server/server.h"
+#include "server/settings/config.h"
+#include "server/telemetry/log.h"
 
 namespace choreo {
 namespace {

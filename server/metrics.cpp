@@ -13,8 +13,8 @@
 #include <thread>
 #include <vector>
 
+#include "server/connections/listener.h"
 #include "server/figures.h"
-#include "server/listener.h"
 
 namespace choreo {
 namespace {

@@ -3,7 +3,7 @@
 #include <memory>
 #include <string>
 
-#include "server/serving.h"
+#include "server/calls/serving.h"
 
 namespace choreo {
 

@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "model/core/printable.h"
-#include "server/live_settings.h"
-#include "server/service_manager.h"
+#include "server/process/service_manager.h"
+#include "server/settings/live_settings.h"
 
 namespace choreo {
 

@@ -6,9 +6,9 @@
 #include <string>
 #include <thread>
 
-#include "server/config.h"
 #include "server/model_folder.h"
 #include "server/server.h"
+#include "server/settings/config.h"
 
 namespace choreo {
 

@@ -19,12 +19,12 @@
 #include "model/core/address.h"
 #include "model/core/error.h"
 #include "model/core/programs.h"
-#include "server/certificate_files.h"
-#include "server/listener.h"
-#include "server/log.h"
+#include "server/connections/listener.h"
+#include "server/process/service_manager.h"
 #include "server/server.h"
-#include "server/service_manager.h"
-#include "server/tokens.h"
+#include "server/settings/certificate_files.h"
+#include "server/settings/tokens.h"
+#include "server/telemetry/log.h"
 
 namespace choreo {
 namespace {

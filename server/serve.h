@@ -2,9 +2,9 @@
 
 #include <exception>
 
-#include "server/config.h"
 #include "server/model_folder.h"
 #include "server/reloader.h"
+#include "server/settings/config.h"
 
 /// The life of a choreod process, from its settings to its end. Only main uses it.
 namespace choreo {

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "model/plan/sampler.h"
-#include "server/config.h"
-#include "server/time_source.h"
+#include "server/process/time_source.h"
+#include "server/settings/config.h"
 
 namespace choreo {
 

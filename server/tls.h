@@ -4,7 +4,7 @@
 
 #include <memory>
 
-#include "server/certificate_files.h"
+#include "server/settings/certificate_files.h"
 
 namespace choreo {
 

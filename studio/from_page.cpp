@@ -5,7 +5,7 @@
 #include <cstring>
 
 #include "client/convert.h"
-#include "model/audio/format.h"
+#include "model/audio/signal/format.h"
 #include "model/core/field.h"
 #include "model/formats/own_arrays.h"
 #include "model/motion/pose_limits.h"

@@ -6,7 +6,7 @@
 #include "client/choreo_client.h"
 #include "client/edit.h"
 #include "client/live/beat_ear.h"
-#include "model/audio/format.h"
+#include "model/audio/signal/format.h"
 #include "studio/studio.pb.h"
 
 /// The page's messages (of choreo.v1) as the client library's structs, the inverse of ToProto in

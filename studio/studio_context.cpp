@@ -9,7 +9,7 @@
 #include "client/authoring/pose_library.h"
 #include "client/convert.h"
 #include "client/describe_styles.h"
-#include "model/audio/beat_hint.h"
+#include "model/audio/beats/beat_hint.h"
 #include "model/core/atomic_file.h"
 #include "model/core/hit.h"
 #include "model/core/limits.h"

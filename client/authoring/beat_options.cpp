@@ -10,7 +10,7 @@
 #include <sstream>
 
 #include "client/authoring/notes.h"
-#include "model/audio/format.h"
+#include "model/audio/signal/format.h"
 #include "model/core/error.h"
 #include "model/core/printable.h"
 #include "model/core/rounded.h"

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "model/audio/beat_hint.h"
-#include "model/audio/beats.h"
+#include "model/audio/beats/beat_hint.h"
+#include "model/audio/beats/beats.h"
 
 namespace choreo::authoring {
 

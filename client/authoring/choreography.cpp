@@ -5,7 +5,7 @@
 #include <random>
 #include <sstream>
 
-#include "model/audio/suggest_keys.h"
+#include "model/audio/beats/suggest_keys.h"
 #include "model/core/grid.h"
 #include "model/motion/canonical.h"
 

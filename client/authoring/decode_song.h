@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "model/audio/decode.h"
+#include "model/audio/decode/decode.h"
 
 namespace choreo::authoring {
 

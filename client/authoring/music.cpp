@@ -5,9 +5,9 @@
 #include <utility>
 
 #include "client/edit.h"
-#include "model/audio/beats.h"
-#include "model/audio/music_analysis.h"
-#include "model/audio/onset.h"
+#include "model/audio/beats/beats.h"
+#include "model/audio/beats/onset.h"
+#include "model/audio/music/music_analysis.h"
 #include "model/core/error.h"
 #include "model/core/rounded.h"
 

@@ -8,8 +8,8 @@
 #include "client/authoring/counts.h"
 #include "client/authoring/decode_song.h"
 #include "client/choreo_client.h"
-#include "model/audio/beats.h"
-#include "model/audio/decode.h"
+#include "model/audio/beats/beats.h"
+#include "model/audio/decode/decode.h"
 #include "model/core/passage.h"
 
 namespace choreo::authoring {

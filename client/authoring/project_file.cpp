@@ -5,7 +5,7 @@
 
 #include "client/authoring/beat_options.h"
 #include "client/authoring/json_fields.h"
-#include "model/audio/format.h"
+#include "model/audio/signal/format.h"
 #include "model/core/error.h"
 #include "model/core/joined.h"
 #include "model/core/rounded.h"

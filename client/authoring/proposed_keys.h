@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "client/authoring/music.h"
-#include "model/audio/suggest_keys.h"
+#include "model/audio/beats/suggest_keys.h"
 
 namespace choreo::authoring {
 

@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "client/authoring/notes.h"
-#include "client/cli/commands.h"
-#include "client/cli/interruption.h"
-#include "client/cli/misspelling.h"
-#include "client/cli/options.h"
+#include "client/cli/commands/commands.h"
+#include "client/cli/options/interruption.h"
+#include "client/cli/options/misspelling.h"
+#include "client/cli/options/options.h"
 #include "model/core/error.h"
 #include "model/core/programs.h"
 

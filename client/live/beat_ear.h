@@ -6,9 +6,9 @@
 #include <span>
 #include <vector>
 
-#include "model/audio/beat_hint.h"
-#include "model/audio/beats_ahead.h"
-#include "model/audio/onset.h"
+#include "model/audio/beats/beat_hint.h"
+#include "model/audio/beats/beats_ahead.h"
+#include "model/audio/beats/onset.h"
 
 namespace choreo::live {
 

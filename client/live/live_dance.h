@@ -18,8 +18,8 @@
 #include "client/live/midi_clock.h"
 #include "client/live/pose_player.h"
 #include "client/live/sound.h"
-#include "model/audio/beat_hint.h"
-#include "model/audio/beats_ahead.h"
+#include "model/audio/beats/beat_hint.h"
+#include "model/audio/beats/beats_ahead.h"
 #include "model/core/limits.h"
 
 namespace choreo::live {

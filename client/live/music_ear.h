@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "client/live/beat_ear.h"
-#include "model/audio/passage_ear.h"
-#include "model/audio/resampler.h"
+#include "model/audio/music/passage_ear.h"
+#include "model/audio/signal/resampler.h"
 
 namespace choreo::live {
 

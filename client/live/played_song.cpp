@@ -6,7 +6,7 @@
 #include <thread>
 
 #include "client/live/sound.h"
-#include "model/audio/decode.h"
+#include "model/audio/decode/decode.h"
 #include "model/core/error.h"
 #include "model/core/rounded.h"
 

@@ -6,7 +6,7 @@
 
 namespace choreo {
 
-/// Why something failed. server/status.cpp maps each code to one gRPC status.
+/// Why something failed. server/messages/status.cpp maps each code to one gRPC status.
 enum class ErrorCode {
   kInvalidArgument,     ///< a value that is never valid
   kOutOfRange,          ///< a valid value at the wrong moment (a gap in the audio)

@@ -6,7 +6,7 @@
 #include <string>
 #include <type_traits>
 
-#include "model/audio/format.h"
+#include "model/audio/signal/format.h"
 #include "model/core/error.h"
 
 namespace choreo {

@@ -8,8 +8,8 @@
 #include <span>
 #include <vector>
 
-#include "model/audio/feature_stream.h"
-#include "model/audio/music_dynamics.h"
+#include "model/audio/music/feature_stream.h"
+#include "model/audio/music/music_dynamics.h"
 #include "model/core/grid.h"
 #include "model/plan/transition_spec.h"
 

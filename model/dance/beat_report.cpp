@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "model/audio/beats.h"
+#include "model/audio/beats/beats.h"
 #include "model/core/quantile.h"
 #include "model/dance/dance_music.h"
 

@@ -6,7 +6,7 @@
 #include <mutex>
 #include <utility>
 
-#include "model/audio/beats_ahead.h"
+#include "model/audio/beats/beats_ahead.h"
 #include "model/core/error.h"
 #include "model/plan/plan_stages.h"
 

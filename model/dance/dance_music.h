@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "model/audio/format.h"
-#include "model/audio/music_analysis.h"
-#include "model/audio/music_dynamics.h"
+#include "model/audio/music/music_analysis.h"
+#include "model/audio/music/music_dynamics.h"
+#include "model/audio/signal/format.h"
 #include "model/dance/audio_feed.h"
 #include "model/dance/dance_start.h"
 #include "model/dance/timeline.h"

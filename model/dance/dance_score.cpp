@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "model/audio/format.h"
+#include "model/audio/signal/format.h"
 #include "model/core/error.h"
 #include "model/dance/validation.h"
 

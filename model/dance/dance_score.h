@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "model/audio/music_analysis.h"
+#include "model/audio/music/music_analysis.h"
 #include "model/dance/audio_feed.h"
 #include "model/dance/controls/control_track.h"
 #include "model/dance/dance_music.h"

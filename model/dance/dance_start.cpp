@@ -5,8 +5,8 @@
 #include <string>
 #include <utility>
 
-#include "model/audio/feature_stream.h"
-#include "model/audio/format.h"
+#include "model/audio/music/feature_stream.h"
+#include "model/audio/signal/format.h"
 #include "model/core/error.h"
 #include "model/core/nearest.h"
 #include "model/dance/audio_feed.h"

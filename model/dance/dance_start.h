@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "model/audio/music_analysis.h"
+#include "model/audio/music/music_analysis.h"
 #include "model/core/grid.h"
 #include "model/core/limits.h"
 #include "model/core/valid.h"

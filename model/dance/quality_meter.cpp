@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "model/audio/beats.h"
+#include "model/audio/beats/beats.h"
 #include "model/core/error.h"
 #include "model/core/quantile.h"
 #include "model/motion/kinematic_beats.h"

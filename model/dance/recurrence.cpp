@@ -5,7 +5,7 @@
 #include <ranges>
 #include <set>
 
-#include "model/audio/format.h"
+#include "model/audio/signal/format.h"
 #include "model/core/error.h"
 #include "model/core/grid.h"
 #include "model/dance/validation.h"

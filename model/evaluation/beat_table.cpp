@@ -4,7 +4,7 @@
 #include <cmath>
 #include <map>
 
-#include "model/audio/beats.h"
+#include "model/audio/beats/beats.h"
 #include "model/metrics/song_beats.h"
 #include "model/motion/kinematic_beats.h"
 

@@ -11,9 +11,9 @@
 #include <string>
 #include <utility>
 
-#include "model/audio/format.h"
-#include "model/audio/music_id.h"
-#include "model/audio/passage_ear.h"
+#include "model/audio/music/music_id.h"
+#include "model/audio/music/passage_ear.h"
+#include "model/audio/signal/format.h"
 #include "model/dance/dance_stream.h"
 #include "model/motion/rotation.h"
 

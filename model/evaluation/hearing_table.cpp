@@ -5,11 +5,11 @@
 #include <map>
 #include <optional>
 
-#include "model/audio/beats.h"
-#include "model/audio/feature_stream.h"
-#include "model/audio/made_song.h"
-#include "model/audio/music_analysis.h"
-#include "model/audio/music_id.h"
+#include "model/audio/beats/beats.h"
+#include "model/audio/music/feature_stream.h"
+#include "model/audio/music/made_song.h"
+#include "model/audio/music/music_analysis.h"
+#include "model/audio/music/music_id.h"
 #include "model/evaluation/beat_table.h"
 #include "model/evaluation/heard_dance.h"
 #include "model/metrics/joint_track.h"

@@ -13,7 +13,7 @@
 #include "model/samplers/samplers.h"
 
 #ifdef CHOREO_SERVICE
-#include "model/audio/decode.h"
+#include "model/audio/decode/decode.h"
 #endif
 
 namespace choreo {

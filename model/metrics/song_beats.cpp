@@ -4,10 +4,10 @@
 #include <array>
 #include <cmath>
 
-#include "model/audio/beats.h"
-#include "model/audio/format.h"
-#include "model/audio/mel.h"
-#include "model/audio/onset.h"
+#include "model/audio/beats/beats.h"
+#include "model/audio/beats/onset.h"
+#include "model/audio/signal/format.h"
+#include "model/audio/signal/mel.h"
 
 namespace choreo {
 namespace {

@@ -9,9 +9,9 @@
 #include <thread>
 #include <utility>
 
-#include "model/audio/decode.h"
-#include "model/audio/feature_stream.h"
-#include "model/audio/mfcc.h"
+#include "model/audio/decode/decode.h"
+#include "model/audio/music/feature_stream.h"
+#include "model/audio/signal/mfcc.h"
 #include "model/core/atomic_file.h"
 #include "model/core/error.h"
 #include "model/core/grid.h"

@@ -28,8 +28,8 @@ const Includes& Sources() {
   return includes;
 }
 
-// "model/motion/skeleton.h" -> "model/motion", "server/status.h" -> "server"; model/papers, proto/
-// and client/ have several modules.
+// "model/motion/skeleton.h" -> "model/motion", "server/messages/status.h" -> "server";
+// model/papers, proto/ and client/ have several modules.
 std::string ModuleOf(const std::string& path) {
   size_t inner = 0;
   for (const char* deep : {"model/papers/", "model/", "proto/", "client/"}) {
@@ -288,8 +288,8 @@ TEST(Architecture, ACallNeedsTheHeaderOfItsClass) {
   const Step push{"model/dance/audio_feed.cpp", "Push"};
   EXPECT_EQ(OwnersOf(push), std::set<std::string>{"AudioFeed"});
   EXPECT_TRUE(Calls("model/dance/dance_chain.cpp", push));
-  ASSERT_TRUE(Mentions("model/audio/feature_stream.cpp", "Push"));
-  EXPECT_FALSE(Calls("model/audio/feature_stream.cpp", push)) << "it pushes to a resampler";
+  ASSERT_TRUE(Mentions("model/audio/music/feature_stream.cpp", "Push"));
+  EXPECT_FALSE(Calls("model/audio/music/feature_stream.cpp", push)) << "it pushes to a resampler";
   EXPECT_TRUE(OwnersOf({"model/dance/dance_chain.cpp", "FlowWindow"}).empty());
 }
 
@@ -330,7 +330,7 @@ TEST(Architecture, TheBuildsIdentityFollowsEverySourceThatDances) {
   std::istringstream listed(CHOREO_IDENTITY_PARTS);
   const std::set<std::string> parts{std::istream_iterator<std::string>(listed), {}};
   const std::set<std::string> known(Sources().files().begin(), Sources().files().end());
-  std::vector<std::string> open = {"server/read_request.cpp"};
+  std::vector<std::string> open = {"server/messages/read_request.cpp"};
   for (const std::string& file : known) {
     if (file.starts_with("model/dance/") || file.starts_with("model/samplers/"))
       open.push_back(file);
@@ -349,6 +349,32 @@ TEST(Architecture, TheBuildsIdentityFollowsEverySourceThatDances) {
   EXPECT_THAT(missing, IsEmpty());
   EXPECT_TRUE(seen.contains("model/papers/samplers/packed_flow.cpp"));
   EXPECT_TRUE(seen.contains("proto/wire/poses.cpp"));
+}
+
+// A large module has rooms, lowest first: a file includes its own room's headers and lower rooms'.
+// Files of no room are above all.
+TEST(Architecture, RoomsOfAModuleIncludeLowerOnesAlone) {
+  const std::vector<std::pair<std::string, std::vector<std::string>>> modules = {
+      {"model/audio/", {"signal", "decode", "beats", "music"}},
+      {"server/", {"process", "messages", "connections", "telemetry", "settings", "calls", ""}},
+      {"client/cli/", {"report", "options", "dance", "edit", "commands", ""}},
+  };
+  for (const auto& [module, rooms] : modules) {
+    const auto level = [&](const std::string& file) {
+      const std::string inner = file.substr(module.size());
+      const size_t slash = inner.find('/');
+      const std::string room = slash == std::string::npos ? "" : inner.substr(0, slash);
+      return std::ranges::find(rooms, room) - rooms.begin();
+    };
+    for (const std::string& file : Sources().files()) {
+      if (!file.starts_with(module)) continue;
+      EXPECT_LT(level(file), std::ssize(rooms)) << file << " is in no known room";
+      for (const std::string& include : Sources().Of(file)) {
+        if (include.starts_with(module))
+          EXPECT_LE(level(include), level(file)) << file << " -> " << include;
+      }
+    }
+  }
 }
 
 TEST(Architecture, EveryFileHasAModule) {

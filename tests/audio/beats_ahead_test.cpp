@@ -1,4 +1,4 @@
-#include "model/audio/beats_ahead.h"
+#include "model/audio/beats/beats_ahead.h"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,8 @@
 #include <numbers>
 #include <random>
 
-#include "model/audio/feature_stream.h"
-#include "model/audio/made_song.h"
+#include "model/audio/music/feature_stream.h"
+#include "model/audio/music/made_song.h"
 #include "tests/audio/signals.h"
 
 namespace choreo::beats_ahead_test {

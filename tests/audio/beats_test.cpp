@@ -1,11 +1,11 @@
-#include "model/audio/beats.h"
+#include "model/audio/beats/beats.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "model/audio/made_song.h"
+#include "model/audio/music/made_song.h"
 #include "model/core/error.h"
 #include "model/metrics/song_beats.h"
 #include "tests/audio/signals.h"

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "model/audio/beats.h"
-#include "model/audio/decode.h"
+#include "model/audio/beats/beats.h"
+#include "model/audio/decode/decode.h"
 #include "model/metrics/song_beats.h"
 
 namespace choreo::audio_cases_test {

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "model/audio/decode.h"
+#include "model/audio/decode/decode.h"
 #include "model/core/error.h"
 #include "tests/support/temporary_folder.h"
 

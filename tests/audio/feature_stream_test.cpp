@@ -1,4 +1,4 @@
-#include "model/audio/feature_stream.h"
+#include "model/audio/music/feature_stream.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,7 +7,7 @@
 #include <limits>
 #include <random>
 
-#include "model/audio/format.h"
+#include "model/audio/signal/format.h"
 #include "model/core/error.h"
 #include "tests/audio/signals.h"
 

@@ -1,4 +1,4 @@
-#include "model/audio/fourier.h"
+#include "model/audio/signal/fourier.h"
 
 #include <gtest/gtest.h>
 

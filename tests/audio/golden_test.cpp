@@ -12,10 +12,10 @@
 #include <string>
 #include <vector>
 
-#include "model/audio/beats.h"
-#include "model/audio/decode.h"
-#include "model/audio/feature_stream.h"
-#include "model/audio/mfcc.h"
+#include "model/audio/beats/beats.h"
+#include "model/audio/decode/decode.h"
+#include "model/audio/music/feature_stream.h"
+#include "model/audio/signal/mfcc.h"
 #include "model/core/npy.h"
 
 namespace choreo::golden_test {

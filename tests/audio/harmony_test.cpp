@@ -1,10 +1,10 @@
-#include "model/audio/harmony.h"
+#include "model/audio/beats/harmony.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "model/audio/beats.h"
+#include "model/audio/beats/beats.h"
 #include "tests/audio/signals.h"
 
 namespace choreo::harmony_test {

@@ -1,4 +1,4 @@
-#include "model/audio/mel.h"
+#include "model/audio/signal/mel.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "model/audio/mfcc.h"
+#include "model/audio/signal/mfcc.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "model/audio/music_dynamics.h"
+#include "model/audio/music/music_dynamics.h"
 
 #include <gtest/gtest.h>
 
@@ -6,8 +6,8 @@
 #include <cmath>
 #include <vector>
 
-#include "model/audio/feature_stream.h"
-#include "model/audio/made_song.h"
+#include "model/audio/music/feature_stream.h"
+#include "model/audio/music/made_song.h"
 #include "tests/audio/signals.h"
 
 namespace choreo::music_dynamics_test {

@@ -1,11 +1,11 @@
-#include "model/audio/onset.h"
+#include "model/audio/beats/onset.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <array>
 
-#include "model/audio/row_onset.h"
+#include "model/audio/music/row_onset.h"
 #include "model/core/error.h"
 #include "tests/audio/signals.h"
 

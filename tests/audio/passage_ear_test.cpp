@@ -1,10 +1,10 @@
-#include "model/audio/passage_ear.h"
+#include "model/audio/music/passage_ear.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "model/audio/made_song.h"
+#include "model/audio/music/made_song.h"
 
 /// Live music, a part of which returns.
 namespace choreo::passage_ear_test {

@@ -1,13 +1,13 @@
-#include "model/audio/passages.h"
+#include "model/audio/music/passages.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "model/audio/beats.h"
-#include "model/audio/made_song.h"
-#include "model/audio/music_analysis.h"
-#include "model/audio/music_id.h"
+#include "model/audio/beats/beats.h"
+#include "model/audio/music/made_song.h"
+#include "model/audio/music/music_analysis.h"
+#include "model/audio/music/music_id.h"
 
 /// Songs assembled from parts, so that repeats are known.
 namespace choreo::passages_test {

@@ -1,4 +1,4 @@
-#include "model/audio/pcm.h"
+#include "model/audio/signal/pcm.h"
 
 #include <gtest/gtest.h>
 

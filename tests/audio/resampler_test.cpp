@@ -1,4 +1,4 @@
-#include "model/audio/resampler.h"
+#include "model/audio/signal/resampler.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,7 +7,7 @@
 #include <cmath>
 #include <random>
 
-#include "model/audio/format.h"
+#include "model/audio/signal/format.h"
 #include "model/core/error.h"
 #include "tests/audio/signals.h"
 

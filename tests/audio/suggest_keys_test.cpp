@@ -1,4 +1,4 @@
-#include "model/audio/suggest_keys.h"
+#include "model/audio/beats/suggest_keys.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -6,7 +6,7 @@
 #include <cmath>
 #include <set>
 
-#include "model/audio/onset.h"
+#include "model/audio/beats/onset.h"
 #include "tests/audio/signals.h"
 #include "tests/support/expect_error.h"
 

@@ -10,8 +10,8 @@
 #include <memory>
 #include <string>
 
-#include "server/log.h"
 #include "server/serve.h"
+#include "server/telemetry/log.h"
 #include "tests/support/fake_sampler.h"
 
 namespace {

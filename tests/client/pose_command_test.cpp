@@ -8,7 +8,7 @@
 #include "client/authoring/pose_file.h"
 #include "client/authoring/pose_library.h"
 #include "client/authoring/pose_source.h"
-#include "client/cli/pose_recipe.h"
+#include "client/cli/commands/pose_recipe.h"
 #include "model/body/doll.h"
 #include "model/formats/motion_file.h"
 #include "model/motion/canonical.h"

@@ -9,9 +9,9 @@
 #include <sstream>
 
 #include "client/choreo_client.h"
-#include "server/certificate_files.h"
-#include "server/handshakes.h"
-#include "server/tokens.h"
+#include "server/connections/handshakes.h"
+#include "server/settings/certificate_files.h"
+#include "server/settings/tokens.h"
 #include "tests/client/run_choreo.h"
 #include "tests/client/test_server.h"
 #include "tests/support/certificates.h"

@@ -1,4 +1,4 @@
-#include "client/cli/time_format.h"
+#include "client/cli/report/time_format.h"
 
 #include <gtest/gtest.h>
 

@@ -8,8 +8,8 @@
 #include <fstream>
 
 #include "client/authoring/project_file.h"
-#include "client/cli/authoring_options.h"
-#include "client/cli/report_controls.h"
+#include "client/cli/options/authoring_options.h"
+#include "client/cli/report/report_controls.h"
 #include "model/dance/controls/control_track.h"
 #include "model/dance/dance_score.h"
 #include "model/flow/window_features.h"

@@ -1,4 +1,4 @@
-#include "client/cli/written_dance.h"
+#include "client/cli/report/written_dance.h"
 
 #include <gtest/gtest.h>
 

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "model/audio/mel.h"
+#include "model/audio/signal/mel.h"
 #include "model/core/error.h"
 #include "tests/audio/signals.h"
 

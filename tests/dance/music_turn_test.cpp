@@ -4,7 +4,7 @@
 #include <random>
 #include <vector>
 
-#include "model/audio/made_song.h"
+#include "model/audio/music/made_song.h"
 #include "tests/dance/dances.h"
 
 namespace choreo::music_turn_test {

@@ -6,7 +6,7 @@
 #include <functional>
 #include <limits>
 
-#include "model/audio/format.h"
+#include "model/audio/signal/format.h"
 #include "model/core/error.h"
 #include "tests/dance/dances.h"
 #include "tests/dance/poses.h"

@@ -65,7 +65,7 @@ test('all of them speak of the same pods', () => {
 });
 
 test('settings are those of choreod, which waits and drains within its grace', () => {
-  const flags = ['server/config_flags.cpp', 'client/cli/connection.cpp'].map(readSource).join('');
+  const flags = ['server/settings/config_flags.cpp', 'client/cli/options/connection.cpp'].map(readSource).join('');
   const settings = [...container.env.map(({name}) => name), ...['compose.yaml', 'compose.tls.yaml'].flatMap((file) => Object.keys(yaml.load(read(file)).services.choreod.environment))];
   settings.forEach((name) => assert.ok(flags.includes(`"${name}"`), `nobody reads ${name}`));
   const {command: [program, seconds]} = container.lifecycle.preStop.exec;
@@ -163,7 +163,7 @@ test('the unit of systemd stops as slowly as the pods, and may open enough', () 
 test('alerts are PromQL on metrics and statuses that there are', () => {
   assert.equal(errorsOf('rate(choreo_frames_total[5m]) >').length, 1);
   const asked = new Set();
-  const statuses = readSource('server/status.cpp');
+  const statuses = readSource('server/messages/status.cpp');
   for (const {alert, expr, labels, annotations} of alerts) {
     assert.deepEqual(errorsOf(expr), [], alert);
     assert.ok(['critical', 'warning'].includes(labels.severity) && annotations.summary, alert);
@@ -172,7 +172,7 @@ test('alerts are PromQL on metrics and statuses that there are', () => {
     [...expr.matchAll(/\bprocess_[a-z_]+/g)].forEach(([name]) => assert.ok(metricSource.includes(`"${name.slice('process_'.length)}"`), name));
     names.forEach((name) => asked.add(name));
     [...expr.matchAll(/job="([a-z]+)"/g)].forEach(([, job]) => assert.equal(job, ofKind('Service').metadata.name, alert));
-    const refusals = readSource('server/refusal.h');
+    const refusals = readSource('server/messages/refusal.h');
     [...expr.matchAll(/connections_total\{reason="([a-z]+)"/g)].forEach(([, reason]) => assert.ok(refusals.includes(`"${reason}"`), reason));
     [...expr.matchAll(/reason!~"([a-z_|]+)"/g)].flatMap(([, reasons]) => reasons.split('|'))
         .forEach((reason) => assert.ok(refusals.includes(`"${reason}"`), reason));
@@ -195,7 +195,7 @@ test('alerts are the same with and without the operator, and the runbook has eac
   assert.deepEqual(ofKind('PrometheusRule').spec.groups, yaml.load(read('alerts.yaml')).groups);
   const known = [...readSource('docs/runbook.md').matchAll(/^\| `(\w+)` \|/gm)].map(([, name]) => name);
   assert.deepEqual(known.filter((name) => name.startsWith('Choreo')), alerts.map(({alert}) => alert));
-  const [, reasons] = readSource('server/handshakes.h').match(/kHandshakeFaults = \{([^}]*)\}/);
+  const [, reasons] = readSource('server/connections/handshakes.h').match(/kHandshakeFaults = \{([^}]*)\}/);
   [...reasons.matchAll(/"(\w+)"/g)].forEach(([, reason]) => assert.ok(known.includes(reason), reason));
 });
 

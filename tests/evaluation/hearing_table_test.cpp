@@ -6,7 +6,7 @@
 #include <memory>
 #include <string>
 
-#include "model/audio/made_song.h"
+#include "model/audio/music/made_song.h"
 #include "tests/support/fake_sampler.h"
 
 namespace choreo::hearing_table_test {

@@ -1,4 +1,4 @@
-#include "model/audio/decode.h"
+#include "model/audio/decode/decode.h"
 #include "tests/fuzz/fuzz.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {

@@ -1,4 +1,4 @@
-#include "client/cli/bone_map.h"
+#include "client/cli/options/bone_map.h"
 
 #include "model/fit/find_bones.h"
 #include "model/motion/skeleton.h"

@@ -7,7 +7,7 @@
 #include <map>
 #include <vector>
 
-#include "model/audio/mfcc.h"
+#include "model/audio/signal/mfcc.h"
 #include "model/core/random.h"
 
 namespace choreo::song_beats_test {

@@ -5,10 +5,10 @@
 #include <chrono>
 #include <string>
 
-#include "server/frame_guard.h"
-#include "server/held_off.h"
-#include "server/reset_guard.h"
-#include "server/tally.h"
+#include "server/connections/frame_guard.h"
+#include "server/connections/held_off.h"
+#include "server/connections/reset_guard.h"
+#include "server/telemetry/tally.h"
 
 namespace choreo::accept_guard_test {
 

@@ -5,7 +5,7 @@
 #include "model/core/threads.h"
 #include "model/engine/sampling_cost.h"
 #include "model/samplers/samplers.h"
-#include "server/serving_cost.h"
+#include "server/calls/serving_cost.h"
 #include "tests/server/fixture.h"
 
 /// How many dances a server with default settings admits, with real kernels and the shipped

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <utility>
 
-#include "server/message_error.h"
+#include "server/messages/message_error.h"
 #include "tests/server/bad_stream.h"
 
 namespace choreo::bad_stream_test {

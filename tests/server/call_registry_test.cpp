@@ -1,4 +1,4 @@
-#include "server/call_registry.h"
+#include "server/calls/call_registry.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <set>
 #include <vector>
 
-#include "server/refusal.h"
+#include "server/messages/refusal.h"
 #include "tests/support/advanced_clock.h"
 
 /// Which callers get a server's places, and when refused callers should retry.

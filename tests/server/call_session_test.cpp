@@ -1,4 +1,4 @@
-#include "server/call_session.h"
+#include "server/calls/call_session.h"
 
 #include <gtest/gtest.h>
 

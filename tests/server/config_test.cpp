@@ -1,4 +1,4 @@
-#include "server/config.h"
+#include "server/settings/config.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "model/core/error.h"
-#include "server/config_flags.h"
+#include "server/settings/config_flags.h"
 
 namespace choreo::config_test {
 

@@ -8,7 +8,7 @@
 #include <optional>
 
 #include "model/core/error.h"
-#include "server/listener.h"
+#include "server/connections/listener.h"
 #include "tests/server/silent_connections.h"
 #include "tests/support/eventually.h"
 

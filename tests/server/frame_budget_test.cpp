@@ -1,4 +1,4 @@
-#include "server/frame_budget.h"
+#include "server/calls/frame_budget.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

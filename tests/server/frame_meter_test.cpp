@@ -1,4 +1,4 @@
-#include "server/frame_meter.h"
+#include "server/connections/frame_meter.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "server/free_memory.h"
+#include "server/process/free_memory.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include "server/process_usage.h"
+#include "server/process/process_usage.h"
 #include "tests/support/sanitizers.h"
 
 namespace choreo::free_memory_test {

@@ -4,7 +4,7 @@
 #include <mutex>
 #include <thread>
 
-#include "server/read_message.h"
+#include "server/messages/read_message.h"
 #include "tests/server/fixture.h"
 #include "tests/server/raw_call.h"
 #include "tests/server/real_time.h"

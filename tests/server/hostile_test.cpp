@@ -6,8 +6,8 @@
 #include <iostream>
 #include <thread>
 
-#include "server/frame_guard.h"
-#include "server/listener.h"
+#include "server/connections/frame_guard.h"
+#include "server/connections/listener.h"
 #include "tests/server/fixture.h"
 #include "tests/server/http2.h"
 #include "tests/server/real_time.h"

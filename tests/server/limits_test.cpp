@@ -3,7 +3,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
-#include "model/audio/format.h"
+#include "model/audio/signal/format.h"
 #include "tests/server/fixture.h"
 #include "tests/server/raw_call.h"
 

@@ -1,4 +1,4 @@
-#include "server/live_settings.h"
+#include "server/settings/live_settings.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

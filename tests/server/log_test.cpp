@@ -10,7 +10,7 @@
 #include <regex>
 #include <sstream>
 
-#include "server/log.h"
+#include "server/telemetry/log.h"
 #include "tests/server/fixture.h"
 
 /// What a server logs.

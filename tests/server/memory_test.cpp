@@ -5,7 +5,7 @@
 #include <iostream>
 
 #include "client/authoring/local_server.h"
-#include "server/read_message.h"
+#include "server/messages/read_message.h"
 #include "tests/server/fixture.h"
 #include "tests/server/raw_call.h"
 #include "tests/support/sanitizers.h"

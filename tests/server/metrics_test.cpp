@@ -17,9 +17,9 @@
 #include <thread>
 
 #include "client/authoring/local_server.h"
-#include "server/listener.h"
-#include "server/refusal.h"
-#include "server/reloads.h"
+#include "server/connections/listener.h"
+#include "server/messages/refusal.h"
+#include "server/settings/reloads.h"
 #include "tests/server/fixture.h"
 #include "tests/server/silent_connections.h"
 #include "tests/support/certificates.h"

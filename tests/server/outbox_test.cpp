@@ -1,4 +1,4 @@
-#include "server/outbox.h"
+#include "server/calls/outbox.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "server/periodic_thread.h"
+#include "server/process/periodic_thread.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "server/player.h"
+#include "server/calls/player.h"
 
 #include <gtest/gtest.h>
 

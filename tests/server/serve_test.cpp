@@ -16,7 +16,7 @@
 #include <string>
 
 #include "client/choreo_client.h"
-#include "server/listener.h"
+#include "server/connections/listener.h"
 #include "tests/server/fixture.h"
 #include "tests/support/certificates.h"
 #include "tests/support/expect_error.h"

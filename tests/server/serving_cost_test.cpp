@@ -1,4 +1,4 @@
-#include "server/serving_cost.h"
+#include "server/calls/serving_cost.h"
 
 #include <gtest/gtest.h>
 

@@ -3,8 +3,8 @@
 #include <limits>
 #include <thread>
 
-#include "model/audio/decode.h"
-#include "model/audio/music_analysis.h"
+#include "model/audio/decode/decode.h"
+#include "model/audio/music/music_analysis.h"
 #include "tests/server/fixture.h"
 
 namespace choreo::stream_test {

@@ -3,7 +3,7 @@
 #include "client/describe_styles.h"
 #include "model/core/safetensors.h"
 #include "proto/wire/convert.h"
-#include "server/describe_model.h"
+#include "server/calls/describe_model.h"
 
 namespace choreo::style_figures_test {
 

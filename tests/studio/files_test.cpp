@@ -10,7 +10,7 @@
 #include "client/authoring/project_file.h"
 #include "client/authoring/proposed_keys.h"
 #include "client/convert.h"
-#include "model/audio/made_song.h"
+#include "model/audio/music/made_song.h"
 #include "proto/wire/control_messages.h"
 #include "tests/studio/opened_studio.h"
 #include "tests/support/expect_error.h"

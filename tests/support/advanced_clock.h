@@ -3,7 +3,7 @@
 #include <atomic>
 #include <chrono>
 
-#include "server/time_source.h"
+#include "server/process/time_source.h"
 
 namespace choreo {
 

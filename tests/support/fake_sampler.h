@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "model/audio/mfcc.h"
+#include "model/audio/signal/mfcc.h"
 #include "model/core/error.h"
 #include "model/core/random.h"
 #include "model/motion/velocity_factors.h"

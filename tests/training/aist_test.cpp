@@ -4,8 +4,8 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "model/audio/feature_stream.h"
-#include "model/audio/mfcc.h"
+#include "model/audio/music/feature_stream.h"
+#include "model/audio/signal/mfcc.h"
 #include "model/fit/fit_clip.h"
 #include "model/formats/amass_npz.h"
 #include "model/motion/kinematics.h"

@@ -5,8 +5,8 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "model/audio/feature_stream.h"
-#include "model/audio/mfcc.h"
+#include "model/audio/music/feature_stream.h"
+#include "model/audio/signal/mfcc.h"
 #include "model/core/error.h"
 #include "model/motion/kinematics.h"
 #include "model/motion/resample.h"

@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include "model/audio/mfcc.h"
+#include "model/audio/signal/mfcc.h"
 #include "model/flow/torch_kernels.h"
 #include "model/papers/networks/controllers_checkpoint.h"
 #include "model/papers/networks/flow_checkpoint.h"

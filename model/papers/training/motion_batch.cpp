@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "model/audio/mfcc.h"
+#include "model/audio/signal/mfcc.h"
 #include "model/flow/torch_kinematics.h"
 #include "model/motion/canonical.h"
 #include "model/motion/mirror.h"

@@ -9,7 +9,7 @@ const usualBar = 4;
 const fewestTaps = 4;
 const slack = 0.06; // share by which equal tempi may differ
 const missed = 0.07; // seconds between a tap and the beat meant
-const gap = 1.6; // intervals; longer ones are pauses, here and in the program (model/audio/beat_hint.cpp)
+const gap = 1.6; // intervals; longer ones are pauses, here and in the program (model/audio/beats/beat_hint.cpp)
 const around = 4; // intervals on either side that tell how long one is
 
 /// Beats in an eight: two bars, of four or three.

@@ -12,7 +12,7 @@
 #include "client/authoring/music.h"
 #include "client/authoring/notes.h"
 #include "client/authoring/project_file.h"
-#include "model/audio/format.h"
+#include "model/audio/signal/format.h"
 #include "tests/support/expect_error.h"
 #include "tests/support/music_files.h"
 #include "tests/support/temporary_folder.h"

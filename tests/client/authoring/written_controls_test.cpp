@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "client/authoring/project_file.h"
-#include "client/cli/options.h"
+#include "client/cli/options/options.h"
 #include "tests/support/expect_error.h"
 
 namespace choreo::authoring::written_controls_test {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "model/audio/made_song.h"
+#include "model/audio/music/made_song.h"
 
 /// Music that sounds now: its beats are known before they sound.
 namespace choreo::live::beat_ear_test {

@@ -1,0 +1,14 @@
+#pragma once
+
+#include "client/authoring/dance_keys.h"
+#include "client/cli/report/written_dance.h"
+#include "client/live/live_dance.h"
+
+namespace choreo::cli {
+
+/// Examines the received part of a live dance. `keys`: those known from the beginning. `settings`:
+/// the request; sets its beats to those that were danced to, unless its song's file gives them.
+WrittenDance Examine(const live::LiveDance& live, const authoring::DanceKeys& keys,
+                     DanceSettings settings);
+
+}  // namespace choreo::cli

@@ -1,0 +1,40 @@
+#include "client/cli/options/misspelling.h"
+
+#include "model/core/nearest.h"
+
+namespace choreo::cli {
+namespace {
+
+std::string DescribeCommand(const CLI::App& program, const std::string& word) {
+  Nearest command(word);
+  for (const CLI::App* known : program.get_subcommands([](const CLI::App*) { return true; }))
+    command.Offer(known->get_name());
+  return word + " is not a command; " +
+         (command.nearest().empty() ? "see --help" : "did you mean " + command.nearest() + "?");
+}
+
+}  // namespace
+
+std::string DescribeMisspelling(const CLI::App& program) {
+  if (program.get_subcommands().empty()) {
+    for (const std::string& word : program.remaining())
+      if (!word.starts_with("-")) return DescribeCommand(program, word);
+  }
+  for (const CLI::App* command : program.get_subcommands()) {
+    for (const std::string& word : command->remaining()) {
+      if (!word.starts_with("--")) continue;
+      const std::string name = word.substr(0, word.find('='));
+      Nearest option(name.substr(2));
+      for (const CLI::Option* known : command->get_options()) {
+        if (known->get_group().empty()) continue;  // hidden
+        for (const std::string& long_name : known->get_lnames()) option.Offer(long_name);
+      }
+      if (option.nearest().empty()) continue;
+      return name + " is not an option of " + command->get_name() + "; did you mean --" +
+             option.nearest() + "?";
+    }
+  }
+  return "";
+}
+
+}  // namespace choreo::cli

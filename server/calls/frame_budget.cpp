@@ -1,0 +1,137 @@
+#include "server/calls/frame_budget.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "server/messages/refusal.h"
+
+namespace choreo {
+namespace {
+
+/// Time to make a transition's frames, if possible.
+constexpr double kTransitionSeconds = 10;
+
+std::string Percent(double share) { return std::to_string(std::lround(100 * share)) + " %"; }
+
+}  // namespace
+
+void FrameBudget::TakeDance(const void* call, const SampleQueue& model, const std::string& party) {
+  Take(call, {&model, party, model.model().fps, true});
+}
+
+void FrameBudget::TakeTransition(const void* call, const SampleQueue& model,
+                                 const std::string& party, int frames) {
+  double frames_per_second = frames / kTransitionSeconds;
+  const FrameShares shares = this->shares();
+  const double most = std::min(shares.of_all, shares.of_lone_peer) / 2;
+  const double load = model.LoadOf(frames_per_second);
+  if (load > most) frames_per_second *= most / load;
+  Take(call, {&model, party, frames_per_second, false});
+}
+
+void FrameBudget::Take(const void* call, Charge charge) {
+  const FrameShares shares = this->shares();
+  const double of_party = MostOf(shares, charge.party, LoadOf(charge));
+  const std::lock_guard lock(mutex_);
+  const auto require = [&](const std::string* party, double most) {
+    const double taken = LoadOf(party), load = LoadOf(party, &charge);
+    if (taken == 0 || load <= most) return;
+    throw Refused(party ? Refusal::kLoadOfPeer : Refusal::kLoad,
+                  "the server is busy: " + (party ? *party + " has " : "calls have ") +
+                      Percent(taken) + " of its time, with this one it would be " + Percent(load) +
+                      ", of at most " + Percent(most) + (party ? " for one caller" : ""));
+  };
+  if (shares.of_all <= 1) {
+    require(nullptr, shares.of_all);
+    require(&charge.party, of_party);
+  }
+  if (!charge.dances) only_danced_ = false;
+  charges_.emplace(call, std::move(charge));
+}
+
+void FrameBudget::GiveBack(const void* call) noexcept {
+  const std::lock_guard lock(mutex_);
+  charges_.erase(call);
+}
+
+bool FrameBudget::OnlyDanced() {
+  const std::lock_guard lock(mutex_);
+  const bool none =
+      std::ranges::all_of(charges_, [](const auto& one) { return one.second.dances; });
+  return std::exchange(only_danced_, none) && none;
+}
+
+std::map<std::string, double> FrameBudget::loads() const {
+  const std::lock_guard lock(mutex_);
+  std::map<std::string, double> loads;
+  for (const auto& [call, charge] : charges_) loads[charge.model->model().name] += LoadOf(charge);
+  return loads;
+}
+
+double FrameBudget::LoadOf(const Charge& charge) const {
+  const double engine = charge.model->LoadOf(charge.frames_per_second);
+  return charge.dances && serving_ ? engine + serving_->LoadOf(charge.frames_per_second) : engine;
+}
+
+double FrameBudget::LoadOf(const std::string* party, const Charge* more) const {
+  // Sums frames first and multiplies by their cost afterwards, so that equal calls add up exactly.
+  std::map<const SampleQueue*, double> frames;
+  double danced = 0;
+  const auto add = [&](const Charge& charge) {
+    frames[charge.model] += charge.frames_per_second;
+    if (charge.dances) danced += charge.frames_per_second;
+  };
+  for (const auto& [call, charge] : charges_) {
+    if (!party || charge.party == *party) add(charge);
+  }
+  if (more) add(*more);
+  double load = serving_ ? serving_->LoadOf(danced) : 0;
+  for (const auto& [model, of_model] : frames) load += model->LoadOf(of_model);
+  return load;
+}
+
+double FrameBudget::MostOf(const FrameShares& shares, const std::string& party, double cost) const {
+  if (!has_rival_ || !has_rival_(party)) return shares.of_lone_peer;
+  return std::min(shares.of_peer, shares.of_all - cost);
+}
+
+FrameShares FrameBudget::shares() const {
+  const std::lock_guard lock(mutex_);
+  return shares_;
+}
+
+void FrameBudget::SetShares(const FrameShares& shares) {
+  const std::lock_guard lock(mutex_);
+  shares_ = shares;
+}
+
+double FrameBudget::utilisation() const {
+  const FrameShares shares = this->shares();
+  if (shares.of_all > 1) return 0;
+  struct Sum {
+    double load = 0, largest = 0;
+    void Add(double more) {
+      load += more;
+      largest = std::max(largest, more);
+    }
+    double OfMost(double most) const { return load + largest > most ? 1 : load / most; }
+  };
+  Sum all;
+  std::map<std::string, Sum> of_party;
+  {
+    const std::lock_guard lock(mutex_);
+    for (const auto& [call, charge] : charges_) {
+      const double load = LoadOf(charge);
+      all.Add(load);
+      of_party[charge.party].Add(load);
+    }
+  }
+  double most = all.load > 0 ? all.OfMost(shares.of_all) : 0;
+  for (const auto& [party, sum] : of_party) {
+    if (sum.load > 0) most = std::max(most, sum.OfMost(MostOf(shares, party, sum.largest)));
+  }
+  return most;
+}
+
+}  // namespace choreo

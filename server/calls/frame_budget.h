@@ -1,0 +1,86 @@
+#pragma once
+
+#include <functional>
+#include <map>
+#include <mutex>
+#include <string>
+#include <utility>
+
+#include "model/engine/sample_queue.h"
+#include "server/calls/serving_cost.h"
+
+namespace choreo {
+
+/// The shares of the machine's time that may be reserved.
+struct FrameShares {
+  double of_all = 0.85;  ///< for all calls; the rest is for other programs and for peaks
+  /// For one caller, while another is connected and while none is.
+  double of_peer = 0.85, of_lone_peer = 0.85;
+};
+
+/// Reserves the machine's time for calls as they arrive. Each call is charged for its frames at
+/// their current cost until GiveBack: the engines' cost (SampleQueue::LoadOf) and, for a dance, the
+/// cost of serving it. The machine serves as many calls as it can, and refuses the rest before they
+/// begin. Models share the devices, so their times add up. A charged model outlives its calls.
+/// `party`: the caller to whom a call is counted (Caller::Party). Thread-safe.
+class FrameBudget {
+ public:
+  /// `has_rival`: whether a caller other than this party is connected. While one is, a caller must
+  /// leave time for one more call like its own. `serving`: the cost of serving; null charges
+  /// nothing for it.
+  explicit FrameBudget(const FrameShares& shares,
+                       std::function<bool(const std::string& party)> has_rival = {},
+                       const ServingCost* serving = nullptr)
+      : has_rival_(std::move(has_rival)), serving_(serving), shares_(shares) {}
+
+  /// Charges a dance, at playing speed however fast its music arrives. Throws Refused if it exceeds
+  /// the time left. A lone caller's first call is always accepted, so that slow engines can serve
+  /// one at a time. Call once per call. `call`: any address that identifies the call.
+  void TakeDance(const void* call, const SampleQueue& model, const std::string& party);
+  /// Charges a transition of this many frames, summed over its candidates. Call once per call.
+  /// Charges at most half of all time, because a transition yields to dances anyway.
+  void TakeTransition(const void* call, const SampleQueue& model, const std::string& party,
+                      int frames);
+  /// Reserves by these shares from now on; calls in progress keep their charges.
+  void SetShares(const FrameShares& shares);
+  /// Ends a call's charge. Ignores calls that were not charged.
+  void GiveBack(const void* call) noexcept;
+
+  /// Whether no transition was charged since the previous call of OnlyDanced.
+  bool OnlyDanced();
+
+  /// The reserved share of the machine's time, by model name.
+  std::map<std::string, double> loads() const;
+  /// The share of the budget in use by all calls or by the busiest caller, whichever is larger. 1
+  /// once another call as large as the largest would be refused; 0 if the budget refuses nobody.
+  double utilisation() const;
+
+ private:
+  struct Charge {
+    const SampleQueue* model;
+    std::string party;
+    double frames_per_second;
+    bool dances;
+  };
+
+  void Take(const void* call, Charge charge);
+  double LoadOf(const Charge& charge) const;
+
+  // The load of all calls or, with `party`, of one caller's, plus that of one more. Requires
+  // mutex_.
+  double LoadOf(const std::string* party, const Charge* more = nullptr) const;
+
+  // These do not require mutex_. MostOf: the most that this caller may reserve when its next call
+  // costs `cost`.
+  double MostOf(const FrameShares& shares, const std::string& party, double cost) const;
+  FrameShares shares() const;
+
+  const std::function<bool(const std::string& party)> has_rival_;
+  const ServingCost* const serving_;
+  mutable std::mutex mutex_;
+  FrameShares shares_;                     // lock: mutex_
+  std::map<const void*, Charge> charges_;  // by call. Lock: mutex_
+  bool only_danced_ = true;                // except transitions still in progress. Lock: mutex_
+};
+
+}  // namespace choreo

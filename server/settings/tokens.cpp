@@ -1,0 +1,197 @@
+#include "server/settings/tokens.h"
+
+#include <openssl/crypto.h>
+#include <openssl/sha.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <charconv>
+#include <sstream>
+#include <utility>
+
+#include "server/messages/status.h"
+#include "tls/pem.h"
+
+namespace choreo {
+namespace {
+
+/// A longer file cannot be a token file.
+constexpr size_t kMaxTokensBytes = 1 << 20;
+constexpr size_t kMaxLinesLength = 60;  // characters of a list of line numbers
+
+// Schemes are case-insensitive (RFC 7235).
+bool IsBearer(std::string_view scheme) {
+  constexpr std::string_view kBearer = "bearer";
+  return std::ranges::equal(scheme, kBearer, [](char a, char b) {
+    return (a >= 'A' && a <= 'Z' ? a - 'A' + 'a' : a) == b;
+  });
+}
+
+grpc::Status SendToken(const std::string& why) {
+  return Unauthenticated(why + "; send the metadata \"authorization: Bearer TOKEN\"");
+}
+
+}  // namespace
+
+Tokens::Tokens(std::filesystem::path file) : file_(std::move(file)) {
+  if (!needed()) return;
+  text_ = Read();
+  Content content = Parse(*text_);
+  if (!content.bad_lines.empty()) throw BadLines(content.bad_lines);
+  if (content.holders.empty()) throw NoTokens();
+  Replace(std::move(content.holders));
+}
+
+std::string Tokens::Read() const { return ReadSmallFile("--tokens", file_, kMaxTokensBytes); }
+
+bool Tokens::ParseHash(std::string_view digits, Hash* hash) {
+  if (digits.size() != 2 * hash->size()) return false;
+  for (size_t i = 0; i < hash->size(); ++i) {
+    const char* at = digits.data() + 2 * i;
+    if (std::from_chars(at, at + 2, (*hash)[i], 16).ptr != at + 2) return false;
+  }
+  return true;
+}
+
+void Tokens::WarnOfRawToken(std::string_view token, const Holders& holders) const {
+  Hash as_hash;
+  if (!ParseHash(token, &as_hash)) return;
+  for (const Holder& one : holders) {
+    if (CRYPTO_memcmp(one.hash.data(), as_hash.data(), as_hash.size()) != 0 ||
+        warned_.exchange(true))
+      continue;
+    spdlog::warn("{}: the line of {} has the token itself; its SHA-256 belongs there",
+                 file_.string(), one.name);
+  }
+}
+
+Tokens::Content Tokens::Parse(const std::string& text) {
+  Content content;
+  std::istringstream lines(text);
+  std::string line;
+  for (int number = 1; std::getline(lines, line); ++number) {
+    std::istringstream words(line);
+    std::string digits;
+    Holder holder;
+    if (!(words >> digits) || digits.starts_with('#')) continue;
+    if (ParseHash(digits, &holder.hash) && words >> holder.name) {
+      content.holders.push_back(std::move(holder));
+    } else if (content.bad_lines.size() < kMaxLinesLength) {
+      content.bad_lines += (content.bad_lines.empty() ? "" : ", ") + std::to_string(number);
+    }
+  }
+  return content;
+}
+
+// Never quotes a line, because it may contain a token.
+Error Tokens::BadLines(const std::string& numbers) const {
+  return InvalidArgument("--tokens", file_.string() + " line " + numbers +
+                                         ": not \"SHA256 NAME\" with 64 hexadecimal digits");
+}
+
+Error Tokens::NoTokens() const {
+  return InvalidArgument("--tokens", file_.string() + " holds no token, no line \"SHA256 NAME\"");
+}
+
+std::shared_ptr<const Tokens::Holders> Tokens::holders() const {
+  const std::lock_guard lock(mutex_);
+  return holders_;
+}
+
+std::vector<std::string> Tokens::Names(size_t most) const {
+  std::vector<std::string> names;
+  const auto all = holders();
+  for (const Holder& one : *all) {
+    if (names.size() >= most) break;
+    if (std::ranges::find(names, one.name) == names.end()) names.push_back(one.name);
+  }
+  return names;
+}
+
+grpc::Status Tokens::FindHolder(std::string_view authorization, std::string* holder,
+                                Hash* hash_of_it) const {
+  if (!needed()) return grpc::Status::OK;
+  if (authorization.empty()) return SendToken("a token is needed");
+  const size_t scheme = authorization.find(' ');
+  if (scheme == authorization.npos || !IsBearer(authorization.substr(0, scheme))) {
+    return SendToken("that is not a bearer token");
+  }
+  authorization.remove_prefix(
+      std::min(authorization.find_first_not_of(' ', scheme), authorization.size()));
+  if (authorization.empty()) return SendToken("that token is empty");
+  Hash hash;
+  SHA256(reinterpret_cast<const unsigned char*>(authorization.data()), authorization.size(),
+         hash.data());
+  const auto all = holders();
+  const Holder* found = nullptr;
+  for (const Holder& one : *all) {
+    if (CRYPTO_memcmp(one.hash.data(), hash.data(), hash.size()) == 0) found = &one;
+  }
+  if (found == nullptr) {
+    WarnOfRawToken(authorization, *all);
+    return SendToken("that token is unknown");
+  }
+  *holder = found->name;
+  if (hash_of_it != nullptr) *hash_of_it = hash;
+  return grpc::Status::OK;
+}
+
+bool Tokens::IsRevoked(const Hash& hash) const {
+  if (!needed()) return false;
+  const std::lock_guard lock(mutex_);
+  return !closed_ && std::ranges::none_of(*holders_, [&](const Holder& one) {
+    return CRYPTO_memcmp(one.hash.data(), hash.data(), hash.size()) == 0;
+  });
+}
+
+void Tokens::Replace(Holders holders) {
+  auto known = std::make_shared<const Holders>(std::move(holders));
+  const std::lock_guard lock(mutex_);
+  holders_ = std::move(known);
+  closed_ = false;
+}
+
+void Tokens::Close() {
+  const std::lock_guard lock(mutex_);
+  holders_ = std::make_shared<const Holders>();
+  closed_ = true;
+}
+
+std::optional<bool> Tokens::Refresh() {
+  if (!needed()) return std::nullopt;
+  std::string text;
+  try {
+    text = Read();
+  } catch (const Error& error) {
+    if (!text_) return std::nullopt;  // logged before
+    text_.reset();
+    Close();
+    spdlog::error("{}; no call is accepted until it can be read", error.what());
+    return false;
+  }
+  if (text_ == text) {
+    seems_empty_ = false;
+    return std::nullopt;
+  }
+  Content content = Parse(text);
+  const bool is_empty = content.holders.empty() && content.bad_lines.empty();
+  // A file is empty for a moment while it is written, so it must be still empty at the next
+  // Refresh.
+  if (is_empty && !std::exchange(seems_empty_, true)) return std::nullopt;
+  seems_empty_ = is_empty;
+  text_ = std::move(text);
+  const bool all_good = content.bad_lines.empty();
+  // A file without a token is the wrong file or unfinished.
+  if (content.holders.empty()) {
+    const Error fault = is_empty ? NoTokens() : BadLines(content.bad_lines);
+    spdlog::error("{}; the {} tokens known before stay valid", fault.what(), count());
+    return false;
+  }
+  if (!all_good) spdlog::error("{}; the other lines count", BadLines(content.bad_lines).what());
+  spdlog::info("{} tokens are known now", content.holders.size());
+  Replace(std::move(content.holders));
+  warned_ = false;
+  return all_good;
+}
+
+}  // namespace choreo
