@@ -130,8 +130,8 @@ ReportKey ReadKey(const ordered_json& value, const std::string& field) {
 }
 
 /// Finds the key that ID@TIME means; the end if there is none.
-ReportKeys::const_iterator Nearest(const ReportKeys& keys, const std::string& id, double fps,
-                                   const std::string& field, const authoring::Counts& counts) {
+ReportKeys::const_iterator NearestKey(const ReportKeys& keys, const std::string& id, double fps,
+                                      const std::string& field, const authoring::Counts& counts) {
   const size_t at = id.rfind('@');
   const auto is_meant = [&](const auto& key) {
     return key.second.holds.empty() && key.second.id == id.substr(0, at);
@@ -266,7 +266,7 @@ std::vector<int64_t> FindKey(const ReportKeys& keys, const std::string& id, doub
     if (is_one) break;
   }
   if (found.empty()) {
-    if (const auto nearest = Nearest(keys, id, fps, field, counts); nearest != keys.end())
+    if (const auto nearest = NearestKey(keys, id, fps, field, counts); nearest != keys.end())
       found.push_back(nearest);
   }
   if (found.empty()) {
