@@ -31,7 +31,7 @@ struct Options {
   std::string song;
   double seconds = 8;
   std::optional<double> temperature;
-  std::vector<int> streams = {1, 20, 50, 60, 200};
+  std::vector<int> streams = {1, 20, 50, 60, 100, 200};
   std::vector<int> addresses = {1, 4};
   std::vector<std::string> tables = {"start", "chunks", "live",   "beside",
                                      "edits", "closed", "minutes"};
