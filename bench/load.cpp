@@ -181,7 +181,7 @@ class Load {
 
   /// Memory of streams that wait for music, more than the defaults admit.
   void Idle() {
-    constexpr int kStreams = 256;
+    constexpr int kStreams = 128;
     const double before = Mebibytes();
     std::vector<std::unique_ptr<client::RemoteDance>> dances;
     for (int i = 0; i < kStreams; ++i) {

@@ -1,10 +1,11 @@
 #!/usr/bin/env bash
 # Runs the benchmarks of a build and writes docs/performance.md.
 #   scripts/bench.sh BIN_DIRECTORY
+# What was measured stays in a temporary folder if something fails.
 set -euo pipefail
 root=$(cd "$(dirname "$0")/.." && pwd)
 folder=$(mktemp -d)
-trap 'rm -rf "$folder"' EXIT
+echo "measures into $folder"
 how=(--benchmark_repetitions=5 --benchmark_enable_random_interleaving=true --benchmark_report_aggregates_only=true
   --benchmark_min_time=0.1)
 "$1/engine_bench" --probes "$folder" "${how[@]}" --benchmark_out="$folder/engine.json"
@@ -19,3 +20,4 @@ if [[ -x $1/load ]]; then
   CHOREO_WORKERS=1 CHOREO_MAX_LOAD=2 CHOREO_CHECKPOINT=$folder/paper.safetensors "$1/load" --tables closed --seconds 4 --temperature 0 | tee "$folder/paper.md"
 fi
 /usr/bin/python3 "$root/bench/report.py" "$folder" "$root"
+rm -rf "$folder"
