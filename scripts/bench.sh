@@ -14,7 +14,7 @@ how=(--benchmark_repetitions=5 --benchmark_enable_random_interleaving=true --ben
 if [[ -x $1/load ]]; then
   "$1/load" | tee "$folder/load.md"
   CHOREO_MAX_STREAMS=1024 "$1/load" --tables idle live --streams 50 100 200 250 300 --addresses 1 | tee "$folder/room.md"
-  CHOREO_KERNELS=avx2 "$1/load" --tables live beside --streams 100 --addresses 1 | tee "$folder/avx2.md"
+  CHOREO_KERNELS=avx2 "$1/load" --tables live --streams 100 --addresses 1 | tee "$folder/avx2.md"
   # One worker, like the engine alone: two would share memory bandwidth. Eight dances want more than it has, so all are admitted.
   # Temperature 0: the random network moves faster than bodies do, so each transition would be sampled five times.
   CHOREO_WORKERS=1 CHOREO_MAX_LOAD=2 CHOREO_CHECKPOINT=$folder/paper.safetensors "$1/load" --tables closed --seconds 4 --temperature 0 | tee "$folder/paper.md"
