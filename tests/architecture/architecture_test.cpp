@@ -370,8 +370,8 @@ TEST(Architecture, RoomsOfAModuleIncludeLowerOnesAlone) {
       if (!file.starts_with(module)) continue;
       EXPECT_LT(level(file), std::ssize(rooms)) << file << " is in no known room";
       for (const std::string& include : Sources().Of(file)) {
-        if (include.starts_with(module))
-          EXPECT_LE(level(include), level(file)) << file << " -> " << include;
+        if (!include.starts_with(module)) continue;
+        EXPECT_LE(level(include), level(file)) << file << " -> " << include;
       }
     }
   }
