@@ -130,9 +130,11 @@ double TransitionRun::ExcessOf(const std::vector<Pose>& poses) const {
 Slices<> TransitionRun::Dance(Sampler& sampler) {
   BestTake<ProcessedPlan> best;
   const uint32_t candidate = spec_->candidate;
-  while (best.NeedsAnother()) {
-    set_candidate(CandidateOfTake(candidate, kTransitionTake * best.takes()));
+  SpareFrames spare = SpareFrames::Of(spec_->frames);
+  while (best.Another(spec_->frames, &spare)) {
+    spec_.SetTake(CandidateOfTake(candidate, kTransitionTake * best.takes()), spare.left());
     ProcessedPlan processed = co_await DanceOnce(sampler);
+    spare.Spend(processed.plan.resampled);
     const double excess = ExcessOf(processed.plan.poses);
     best.Add(std::move(processed), excess);
   }

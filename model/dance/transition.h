@@ -63,7 +63,7 @@ class TransitionRun {
 
   /// The spec in its canonical frame.
   const TransitionSpec& spec() const { return *spec_; }
-  void set_candidate(uint32_t candidate) { spec_.set_candidate(candidate); }
+  void set_candidate(uint32_t candidate) { spec_.SetTake(candidate, spec_->spare_frames); }
 
   /// Generates all frames. If a joint moves faster than human bodies can and no key requires it,
   /// samples again and keeps the slowest take (plan/takes.h). The sampler and this object must

@@ -11,9 +11,8 @@ class Sampler;
 void WarmUp(Sampler& sampler);
 
 /// The cost of a frame on one worker, measured in its sampler's warm-up and then in recent
-/// transitions. So it knows the mean of takes (plan/takes.h), rounds of requested energy and
-/// footwork, but not their worst case: slices and deadlines, not admission, bound how long one
-/// transition holds up others. Thread-safe.
+/// transitions. It is a mean, over takes and rounds of requested energy, too; a transition's cost
+/// is at most kMaxTakes times that of sampling it once (plan/takes.h). Thread-safe.
 class SamplingCost {
  public:
   /// `seconds_a_frame`: the initial cost; 0: not measured.

@@ -17,7 +17,6 @@
 #include "model/motion/kinematics.h"
 #include "model/motion/motion.h"
 #include "model/motion/resample.h"
-#include "model/plan/takes.h"
 
 namespace choreo {
 namespace {
@@ -26,7 +25,7 @@ namespace {
 // window without a key may end, unless it began farther off. One in 200 of the training clips'
 // frames is farther. A dance that goes there knows no way back: it falls or floats.
 constexpr double kMaxDeviation = 7;
-constexpr int kRounds = 3;  // of requesting energy
+constexpr int kRounds = 3;  // of requesting energy, if spare frames are left
 
 // The random numbers of a window, [.., w]: of the motion's dimensions, then of the energy's levels
 // (the first frame's count) and curves.
@@ -177,7 +176,8 @@ Slices<std::vector<Pose>> SampleWindow(const FlowModelParts& model, const FlowNe
 }
 
 Slices<std::vector<Pose>> SampleTransition(const FlowModelParts& model, const FlowNetwork& network,
-                                           WindowRequest request, FlowNoise noise) {
+                                           WindowRequest request, FlowNoise noise,
+                                           SpareFrames* spare) {
   if (!request.turn_to_key)
     request.turn_to_key = model.turns.Sample(model.skeleton, request,
                                              NumberFor(kWayToKey, model, noise), noise.temperature);
@@ -194,7 +194,7 @@ Slices<std::vector<Pose>> SampleTransition(const FlowModelParts& model, const Fl
                            !request.controls[kRootPath].IsRequested(kPathHeight);
     const double most = std::max(kMaxDeviation, usual.Deviation(danced.back()));
     BestTake<std::vector<Pose>> best;
-    while (best.NeedsAnother()) {
+    while (best.Another(frames, spare)) {
       FlowNoise own = noise;
       own.first_frame += from;
       own.candidate = CandidateOfTake(noise.candidate, best.takes());
@@ -245,9 +245,11 @@ Slices<Plan> ContinuousFlowSampler::Begin(const ValidSpec& valid) {
       noise.temperature > 0 && energy.IsGiven() && std::ranges::count(energy.requested, true) > 0;
   std::array<double, kBodyParts> more = {};
   Plan plan;
+  SpareFrames spare(spec.spare_frames);
   double least = std::numeric_limits<double>::infinity();  // the error of the nearest result
   for (int round = 0; round < (in_rounds ? kRounds : 1); ++round) {
-    std::vector<Pose> poses = co_await SampleTransition(*parts_, *network_, request, noise);
+    if (round > 0 && !spare.Spend(spec.frames)) break;
+    std::vector<Pose> poses = co_await SampleTransition(*parts_, *network_, request, noise, &spare);
     const double error = in_rounds ? CorrectEnergy(parts_->skeleton, spec.history.back(), poses,
                                                    wanted, more, energy)
                                    : 0;
@@ -257,6 +259,7 @@ Slices<Plan> ContinuousFlowSampler::Begin(const ValidSpec& valid) {
       plan.poses = std::move(poses);
     }
   }
+  plan.resampled = spec.spare_frames - spare.left();
   co_return plan;
 }
 

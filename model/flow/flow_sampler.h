@@ -11,6 +11,7 @@
 #include "model/flow/flow_model.h"
 #include "model/flow/flow_window.h"
 #include "model/plan/sampler.h"
+#include "model/plan/takes.h"
 
 namespace choreo {
 
@@ -46,16 +47,19 @@ Slices<std::vector<Pose>> SampleWindow(const FlowModelParts& model, const FlowNe
 
 /// Samples a transition of any length as windows of at most config.window_frames, one after
 /// another, each in its own canonical frame. Every window sees the transition's key if it is at
-/// most kSightFrames away. A window without a key is sampled again if it ends in a pose that
-/// dancers hardly ever have. `request` covers the whole transition, of at least one frame (frames
+/// most kSightFrames away. Samples a window again, while spare frames are left, if it is faster
+/// than people are or ends, without a key, in a pose that dancers hardly ever have. `request`
+/// covers the whole transition, of at least one frame (frames
 /// <= to_key if there is a key). The model's TurnPrior chooses the direction of the turn to the
 /// key, unless the request does.
 Slices<std::vector<Pose>> SampleTransition(const FlowModelParts& model, const FlowNetwork& network,
-                                           WindowRequest request, FlowNoise noise);
+                                           WindowRequest request, FlowNoise noise,
+                                           SpareFrames* spare);
 
 /// Samples the continuous flow. A slice is one evaluation of its network, in rounds if energy is
-/// requested. Windows are sampled one after another, so a transition's bits depend on nothing else.
-/// Its music input is beats, not sound. Plans have no contacts. Made by samplers.h.
+/// requested and spare frames are left. Windows are sampled one after another, so a transition's
+/// bits depend on nothing else. Its music input is beats, not sound. Plans have no contacts. Made
+/// by samplers.h.
 class ContinuousFlowSampler : public Sampler {
  public:
   ContinuousFlowSampler(ModelInfo info, std::string device,

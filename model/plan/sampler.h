@@ -21,6 +21,7 @@ struct Plan {
   /// [frames] nats (in the model's standardised space, including log-determinants); empty if the
   /// model has no exact ones.
   std::vector<float> log_likelihoods;
+  int resampled = 0;  ///< frames that it cost beside the first sampling of each
 };
 
 /// A model on one device. A plan depends only on model and spec. Not thread-safe: plans are sampled

@@ -8,8 +8,8 @@
 /// How motion that no dancer would dance is sampled again: a window by the flow's sampler, whose
 /// network may leave human postures, and a whole transition by TransitionRun, since beats, arrival
 /// and footwork change speeds. Each is sampled at most kMaxTakes times, with noise of its own, and
-/// the take with the least excess is kept. Takes nest, so a window is sampled up to kMaxTakes²
-/// times, and that again in each round of requested energy.
+/// the take with the least excess is kept. Takes nest, and rounds of requested energy nest in them,
+/// so one budget bounds them all: a transition samples at most kMaxTakes times its frames.
 namespace choreo {
 
 inline constexpr int kMaxTakes = 5;
@@ -22,14 +22,36 @@ inline uint32_t CandidateOfTake(uint32_t candidate, int take) {
   return candidate + static_cast<uint32_t>(kMaxCandidates) * static_cast<uint32_t>(take);
 }
 
+/// The frames that a transition may still sample beside the first sampling of each.
+class SpareFrames {
+ public:
+  explicit SpareFrames(int left) : left_(left) {}
+  /// The budget of a transition of `frames` frames.
+  static SpareFrames Of(int frames) { return SpareFrames((kMaxTakes - 1) * frames); }
+
+  int left() const { return left_; }
+  /// Takes as many frames, if they are left.
+  bool Spend(int frames) {
+    if (frames > left_) return false;
+    left_ -= frames;
+    return true;
+  }
+
+ private:
+  int left_;
+};
+
 /// The best of several takes. Not thread-safe.
 template <typename Motion>
 class BestTake {
  public:
   /// The number of takes so far, which is the next one's number.
   int takes() const { return takes_; }
-  /// Whether to sample another one: none is within the limits so far, and takes are left.
-  bool NeedsAnother() const { return takes_ == 0 || (excess_ > 1 && takes_ < kMaxTakes); }
+  /// Whether to sample another one, of `frames` frames, which then are spent unless it is the
+  /// first: none is within the limits so far, and takes and spare frames are left.
+  bool Another(int frames, SpareFrames* spare) const {
+    return takes_ == 0 || (excess_ > 1 && takes_ < kMaxTakes && spare->Spend(frames));
+  }
   /// `excess`: the take's largest ratio to a limit of what dancers do; at most 1 is within it.
   void Add(Motion motion, double excess) {
     if (takes_++ > 0 && !(excess < excess_)) return;

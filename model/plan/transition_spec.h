@@ -110,6 +110,8 @@ struct TransitionSpec {
   /// `variation`, 0 to 1 (FillNormalLike). [frames] or empty.
   std::vector<int64_t> noise_like = {};
   double variation = 0;
+  /// The most frames to sample beside the first sampling of each (plan/takes.h).
+  int spare_frames = 0;
   float temperature = 0.3F;
   std::string style = {};               ///< one of the model's, or empty for any
   std::optional<MusicRows> music = {};  ///< for models that hear; none: no music
@@ -125,7 +127,11 @@ class ValidSpec : public Valid<TransitionSpec> {
   /// rows and controls have the model's shape, and for a control that the model lacks.
   ValidSpec(TransitionSpec spec, const ModelInfo& model);
 
-  void set_candidate(uint32_t candidate) { request_.candidate = candidate; }
+  /// For another take (plan/takes.h).
+  void SetTake(uint32_t candidate, int spare_frames) {
+    request_.candidate = candidate;
+    request_.spare_frames = spare_frames;
+  }
 };
 
 /// Whether the spec's target fixes the root's position or a joint.

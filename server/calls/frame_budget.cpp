@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "model/plan/takes.h"
 #include "server/messages/refusal.h"
 
 namespace choreo {
@@ -43,7 +44,7 @@ void FrameBudget::Take(const void* call, Charge charge) {
                       ", of at most " + Percent(most) + (party ? " for one caller" : ""));
   };
   if (shares.of_all <= 1) {
-    require(nullptr, shares.of_all);
+    require(nullptr, MostOfAll(shares, &charge));
     require(&charge.party, of_party);
   }
   if (!charge.dances) only_danced_ = false;
@@ -91,6 +92,17 @@ double FrameBudget::LoadOf(const std::string* party, const Charge* more) const {
   return load;
 }
 
+double FrameBudget::MostOfAll(const FrameShares& shares, const Charge* more) const {
+  double costliest = 0;
+  const auto add = [&](const Charge& charge) {
+    if (charge.dances)
+      costliest = std::max(costliest, charge.model->LoadOf(charge.frames_per_second));
+  };
+  for (const auto& [call, charge] : charges_) add(charge);
+  if (more) add(*more);
+  return std::min(shares.of_all, 1 - (kMaxTakes - 1) * costliest);
+}
+
 double FrameBudget::MostOf(const FrameShares& shares, const std::string& party, double cost) const {
   if (!has_rival_ || !has_rival_(party)) return shares.of_lone_peer;
   return std::min(shares.of_peer, shares.of_all - cost);
@@ -119,15 +131,17 @@ double FrameBudget::utilisation() const {
   };
   Sum all;
   std::map<std::string, Sum> of_party;
+  double most_of_all = 0;
   {
     const std::lock_guard lock(mutex_);
+    most_of_all = MostOfAll(shares);
     for (const auto& [call, charge] : charges_) {
       const double load = LoadOf(charge);
       all.Add(load);
       of_party[charge.party].Add(load);
     }
   }
-  double most = all.load > 0 ? all.OfMost(shares.of_all) : 0;
+  double most = all.load > 0 ? all.OfMost(most_of_all) : 0;
   for (const auto& [party, sum] : of_party) {
     if (sum.load > 0) most = std::max(most, sum.OfMost(MostOf(shares, party, sum.largest)));
   }

@@ -19,10 +19,12 @@ struct FrameShares {
 };
 
 /// Reserves the machine's time for calls as they arrive. Each call is charged for its frames at
-/// their current cost until GiveBack: the engines' cost (SampleQueue::LoadOf) and, for a dance, the
-/// cost of serving it. The machine serves as many calls as it can, and refuses the rest before they
-/// begin. Models share the devices, so their times add up. A charged model outlives its calls.
-/// `party`: the caller to whom a call is counted (Caller::Party). Thread-safe.
+/// their current mean cost until GiveBack: the engines' cost (SampleQueue::LoadOf) and, for a
+/// dance, the cost of serving it. A rare transition is sampled kMaxTakes times (plan/takes.h), so
+/// beside these means one dance of the costliest kind has time for that. The machine serves as many
+/// calls as it can, and refuses the rest before they begin. Models share the devices, so their
+/// times add up. A charged model outlives its calls. `party`: the caller to whom a call is counted
+/// (Caller::Party). Thread-safe.
 class FrameBudget {
  public:
   /// `has_rival`: whether a caller other than this party is connected. While one is, a caller must
@@ -69,6 +71,9 @@ class FrameBudget {
   // The load of all calls or, with `party`, of one caller's, plus that of one more. Requires
   // mutex_.
   double LoadOf(const std::string* party, const Charge* more = nullptr) const;
+
+  // The most that all calls, with one more, may reserve. Requires mutex_.
+  double MostOfAll(const FrameShares& shares, const Charge* more = nullptr) const;
 
   // These do not require mutex_. MostOf: the most that this caller may reserve when its next call
   // costs `cost`.

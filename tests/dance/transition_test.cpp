@@ -120,6 +120,27 @@ TEST(Transition, WhatNoBodyCanDoIsSampledAgain) {
   EXPECT_EQ(always.samples(), 5);
 }
 
+// Samples its frames twice if it may, and the transition samples it again.
+class TwiceSampler : public FakeSampler {
+ public:
+  int frames = 0;
+
+ private:
+  void OnFrame(const TransitionSpec& spec, Plan* plan) override {
+    plan->resampled = std::min(spec.frames, spec.spare_frames);
+    plan->poses.back().rotations.col(16).z() += plan->poses.size() % 2 == 0 ? 2 : 0;
+    if (std::ssize(plan->poses) == spec.frames) frames += spec.frames + plan->resampled;
+  }
+};
+
+TEST(Transition, SamplesAtMostItsBudgetWhoeverSpendsIt) {
+  TransitionSpec request = RandomRequest(6);
+  request.frames = 60;
+  TwiceSampler sampler;
+  ASSERT_GT(FastestJoint(request, DanceTransition(sampler, request)), kFastestJoint);
+  EXPECT_EQ(sampler.frames, kMaxTakes * request.frames);
+}
+
 TEST(Transition, AKeyThatDemandsTooMuchIsSampledOnce) {
   TransitionSpec request = RandomRequest(6);
   request.frames = 2;

@@ -22,7 +22,8 @@ std::vector<Pose> Window(const FlowModelParts& model, const FlowNetwork& network
 
 std::vector<Pose> Transition(const FlowModelParts& model, const FlowNetwork& network,
                              const WindowRequest& request, const FlowNoise& noise) {
-  return SampleTransition(model, network, request, noise).Finish();
+  SpareFrames spare = SpareFrames::Of(request.frames);
+  return SampleTransition(model, network, request, noise, &spare).Finish();
 }
 
 // Has learnt nothing: its dances are the prior's.
@@ -443,6 +444,28 @@ TEST(FlowSampler, WindowsFasterThanPeopleAreSampledAgain) {
   const Flailing once(parts.config.steps);
   EXPECT_LT(speed(once, 1), kFastestJoint);
   EXPECT_EQ(once.evaluations, 2 * parts.config.steps);
+}
+
+// Windows, takes and rounds share a budget.
+TEST(FlowSampler, RequestedEnergySamplesNoMoreThanTheBudget) {
+  const auto parts = std::make_shared<const FlowModelParts>(Parts());
+  ModelInfo model;
+  model.skeleton = parts->skeleton;
+  model.history_frames = kTau;
+  model.controls = ControlNames();
+  TransitionSpec spec;
+  spec.frames = 30;
+  spec.history = MakeScene(30).request.history;
+  spec.temperature = 1;
+  spec.controls[kVelocityFactors].values.setConstant(kBodyParts, spec.frames, 0.05F);
+  for (const int spare : {0, 1, 3, kMaxTakes - 1}) {
+    const auto always = std::make_shared<const Flailing>(1000);
+    ContinuousFlowSampler sampler(model, "cpu", parts, always);
+    spec.spare_frames = spare * spec.frames;
+    const Plan plan = sampler.Begin(ValidSpec(spec, model)).Finish();
+    EXPECT_EQ(plan.resampled, spec.spare_frames);
+    EXPECT_EQ(always->evaluations, (1 + spare) * parts->config.steps);
+  }
 }
 
 TEST(FlowSampler, TurningTheSceneTurnsTheDance) {

@@ -34,6 +34,7 @@ class ContinuousFlowSamplerTest : public testing::Test {
   TransitionSpec Spec(uint64_t seed, int frames = 12) const {
     TransitionSpec spec = RandomSpec(sampler_->model(), seed, frames);
     spec.temperature = 0.7F;
+    spec.spare_frames = SpareFrames::Of(frames).left();
     spec.beats = {-4, 8, 20, 32};
     return spec;
   }

@@ -3,13 +3,15 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "model/core/grid.h"
 #include "model/core/threads.h"
+#include "model/plan/takes.h"
 #include "tests/support/expect_error.h"
 #include "tests/support/fake_sampler.h"
 
 namespace choreo::frame_budget_test {
 
-constexpr FrameShares kShares{.of_all = 0.9, .of_peer = 0.9, .of_lone_peer = 0.9};
+constexpr FrameShares kShares{.of_all = 0.71, .of_peer = 0.71, .of_lone_peer = 0.71};
 
 /// Two models with one worker each, and time for 20 dances: 10 of each model.
 class FrameBudgetTest : public ::testing::Test {
@@ -42,8 +44,8 @@ class FrameBudgetTest : public ::testing::Test {
 
 TEST_F(FrameBudgetTest, AdmitsWhatTheEnginesCanServe) {
   FrameBudget budget(kShares);
-  EXPECT_EQ(TakeDances(budget, *models[0], "a", calls), 18);
-  EXPECT_NEAR(budget.loads()["fake"], 0.9, 1e-9);
+  EXPECT_EQ(TakeDances(budget, *models[0], "a", calls), 14);
+  EXPECT_NEAR(budget.loads()["fake"], 0.7, 1e-9);
   budget.GiveBack(&calls[3]);
   budget.GiveBack(&calls[3]);
   budget.TakeDance(&calls[100], *models[0], "a");
@@ -52,24 +54,34 @@ TEST_F(FrameBudgetTest, AdmitsWhatTheEnginesCanServe) {
 
 TEST_F(FrameBudgetTest, SharesMayChangeMeanwhile) {
   FrameBudget budget(kShares);
-  EXPECT_EQ(TakeDances(budget, *models[0], "a", calls), 18);
-  budget.SetShares({.of_all = 1.0, .of_peer = 1.0, .of_lone_peer = 1.0});
-  EXPECT_EQ(TakeDances(budget, *models[0], "a", calls + 100), 2);
+  EXPECT_EQ(TakeDances(budget, *models[0], "a", calls), 14);
+  budget.SetShares({.of_all = 0.76, .of_peer = 0.76, .of_lone_peer = 0.76});
+  EXPECT_EQ(TakeDances(budget, *models[0], "a", calls + 100), 1);
+}
+
+// 17 dances at the mean cost leave no time to sample the frames of one of them five times.
+TEST_F(FrameBudgetTest, LeavesTimeForOneDanceAtItsMost) {
+  FrameBudget budget({.of_all = 0.99, .of_peer = 0.99, .of_lone_peer = 0.99});
+  const double of_one = models[0]->LoadOf(kModelFps);
+  const int taken = TakeDances(budget, *models[0], "a", calls);
+  EXPECT_LE((taken - 1 + kMaxTakes) * of_one, 1 + 1e-9);
+  EXPECT_GT((taken + kMaxTakes) * of_one, 1);
+  EXPECT_EQ(budget.utilisation(), 1);
 }
 
 TEST_F(FrameBudgetTest, ModelsShareTheTime) {
   FrameBudget budget(kShares);
-  for (int i = 0; i < 9; ++i) budget.TakeDance(&calls[i], *models[0], "a");
-  EXPECT_EQ(TakeDances(budget, *models[1], "a", calls + 100), 9);
+  for (int i = 0; i < 7; ++i) budget.TakeDance(&calls[i], *models[0], "a");
+  EXPECT_EQ(TakeDances(budget, *models[1], "a", calls + 100), 7);
 }
 
 TEST_F(FrameBudgetTest, OneAddressCannotTakeItAll) {
-  FrameBudget budget({.of_all = 0.9, .of_peer = 0.45}, [](const std::string&) { return true; });
-  EXPECT_EQ(TakeDances(budget, *models[0], "a", calls), 9);
+  FrameBudget budget({.of_all = 0.72, .of_peer = 0.36}, [](const std::string&) { return true; });
+  EXPECT_EQ(TakeDances(budget, *models[0], "a", calls), 7);
   ExpectError(ErrorCode::kResourceExhausted,
-              "a has 45 % of its time, with this one it would be 50 %, of at most 45 %",
+              "a has 35 % of its time, with this one it would be 40 %, of at most 36 %",
               [&] { budget.TakeDance(&calls[99], *models[0], "a"); });
-  EXPECT_EQ(TakeDances(budget, *models[0], "b", calls + 100), 9);
+  EXPECT_EQ(TakeDances(budget, *models[0], "b", calls + 100), 7);
 }
 
 // A slow engine serves about two dances, and one holder must not get both.
@@ -87,15 +99,15 @@ TEST_F(FrameBudgetTest, ARivalFindsTimeOnASmallServer) {
 
 TEST_F(FrameBudgetTest, UtilisationIsOneWhereTheNextIsRefused) {
   bool rival = false;
-  FrameBudget budget({.of_all = 0.92, .of_peer = 0.46, .of_lone_peer = 0.92},
+  FrameBudget budget({.of_all = 0.72, .of_peer = 0.36, .of_lone_peer = 0.72},
                      [&rival](const std::string&) { return rival; });
   EXPECT_EQ(budget.utilisation(), 0);
   budget.TakeDance(&calls[150], *models[0], "a");
-  EXPECT_NEAR(budget.utilisation(), 0.05 / 0.92, 1e-9);
-  EXPECT_EQ(TakeDances(budget, *models[0], "a", calls), 17);
+  EXPECT_NEAR(budget.utilisation(), 0.05 / 0.72, 1e-9);
+  EXPECT_EQ(TakeDances(budget, *models[0], "a", calls), 13);
   EXPECT_EQ(budget.utilisation(), 1);
-  for (int i = 0; i < 9; ++i) budget.GiveBack(&calls[i]);
-  EXPECT_NEAR(budget.utilisation(), 0.45 / 0.92, 1e-9);
+  for (int i = 0; i < 7; ++i) budget.GiveBack(&calls[i]);
+  EXPECT_NEAR(budget.utilisation(), 0.35 / 0.72, 1e-9);
   rival = true;
   EXPECT_EQ(budget.utilisation(), 1);
 }
@@ -105,8 +117,8 @@ TEST_F(FrameBudgetTest, TransitionsPayForTheirFramesUpToHalfTheBudget) {
   budget.TakeTransition(&calls[0], *models[0], "a", 600);  // as two dances for ten seconds
   EXPECT_NEAR(budget.loads()["fake"], 0.1, 1e-9);
   budget.TakeTransition(&calls[1], *models[0], "a", 1'000'000);
-  EXPECT_NEAR(budget.loads()["fake"], 0.55, 1e-9);
-  EXPECT_EQ(TakeDances(budget, *models[0], "a", calls + 100), 7);
+  EXPECT_NEAR(budget.loads()["fake"], 0.455, 1e-9);
+  EXPECT_EQ(TakeDances(budget, *models[0], "a", calls + 100), 5);
   EXPECT_THROW(budget.TakeTransition(&calls[2], *models[0], "a", 1'000'000), Error);
 }
 
@@ -117,8 +129,8 @@ TEST_F(FrameBudgetTest, DancesPayForWhatServingThemTakes) {
   budget.TakeTransition(&calls[50], *models[0], "a", 600);
   EXPECT_NEAR(budget.loads()["fake"], 0.1, 1e-9);
   budget.GiveBack(&calls[50]);
-  EXPECT_EQ(TakeDances(budget, *models[0], "a", calls), 12);
-  EXPECT_NEAR(budget.loads()["fake"], 0.9, 1e-9);
+  EXPECT_EQ(TakeDances(budget, *models[0], "a", calls), 9);
+  EXPECT_NEAR(budget.loads()["fake"], 0.675, 1e-9);
 }
 
 TEST_F(FrameBudgetTest, KnowsWhetherOthersThanDancesWereThere) {
