@@ -8,27 +8,16 @@
 #include "model/audio/music/feature_stream.h"
 #include "model/audio/signal/format.h"
 #include "model/core/error.h"
-#include "model/core/nearest.h"
 #include "model/dance/audio_feed.h"
 #include "model/dance/dance_music.h"
 #include "model/dance/recurrence.h"
 #include "model/dance/timeline.h"
 #include "model/dance/validation.h"
 #include "model/motion/pose_limits.h"
+#include "model/plan/transition_spec.h"
 
 namespace choreo {
 namespace {
-
-void CheckStyle(const ModelInfo& model, const std::string& style) {
-  const std::string field = "style";
-  if (style.empty() || std::ranges::find(model.styles, style) != model.styles.end()) return;
-  if (style.size() > kMaxIdLength) {
-    throw InvalidArgument(field, "has " + std::to_string(style.size()) + " bytes, at most " +
-                                     std::to_string(kMaxIdLength));
-  }
-  throw InvalidArgument(field, "\"" + style + "\" is not a style of the model " + model.name +
-                                   "; " + DidYouMean(style, model.styles));
-}
 
 void ValidateAudioStart(const ModelInfo& model, const DanceStart::Audio& audio,
                         int64_t first_frame) {
@@ -48,7 +37,7 @@ void ValidateAudioStart(const ModelInfo& model, const DanceStart::Audio& audio,
 
 // Throws what the constructors of ValidDance and ValidGroup throw.
 void CheckStart(const DanceStart& start, const ModelInfo& model) {
-  if (start.temperature) ValidateTemperature(*start.temperature, "temperature");
+  CheckManner(model, start.temperature.value_or(model.default_temperature), start.style);
   ValidateShare(start.Dynamics(), "music_dynamics");
   ValidateShare(start.Variation(), "variation");
   CheckBeats(start.music_beats, "music_beats");
@@ -60,7 +49,6 @@ void CheckStart(const DanceStart& start, const ModelInfo& model) {
                                                 std::to_string(kMaxPassages));
   }
   CheckEnergies(start.music_energies, "music_energies");
-  CheckStyle(model, start.style);
   ValidateOutputFps(start.output_fps, "output_fps");
   CheckHistory(model.skeleton, start.history, "history");
   if (!start.continuation) {

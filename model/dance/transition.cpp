@@ -90,29 +90,28 @@ TransitionRun::TransitionRun(const ModelInfo& model, const TransitionSpec& world
   ground_ = GroundFrame::Of(now);
   stage_ = spec_->stage.value_or(GroundFrame{now.root_position, ToFloat(ground_.heading)});
   held_ = spec_->arrival_frames > 0 && IsHold(*spec_, model.fps);
-  spec_ = {InCanonicalFrame(*spec_), model};
+  spec_.ChangeFrame([this](TransitionSpec* spec) { ToCanonicalFrame(spec); });
 }
 
-TransitionSpec TransitionRun::InCanonicalFrame(TransitionSpec spec) const {
-  spec.history = CanonicalHistory(ground_, before_);
-  spec.stage = ground_.ToLocal(stage_);
+void TransitionRun::ToCanonicalFrame(TransitionSpec* spec) const {
+  spec->history = CanonicalHistory(ground_, before_);
+  spec->stage = ground_.ToLocal(stage_);
   const auto to_local = [&](Target& target) {
     target.height = target.mask.root_position
                         ? std::nullopt
                         : StandingHeight(model_->skeleton, target.pose, target.mask);
     target.pose = ground_.ToLocal(target.pose);
-    MakeContinuous(target.pose, spec.history.back());
+    MakeContinuous(target.pose, spec->history.back());
   };
-  if (world_target_) to_local(spec.target.emplace(*world_target_));
-  if (spec.later) to_local(spec.later->target);
-  spec.controls.ToLocal(ground_);
-  for (size_t i = 0; i < spec.controls.rows().size(); ++i)
-    spec.controls[i].values = spec.controls[i].values.unaryExpr(&ToFloat);
-  if (spec.after)
-    spec.after = ground_.ToLocal(*spec.after);
-  else if (spec.target && (spec.hit || held_))
-    spec.after = spec.target->pose;  // at rest
-  return spec;
+  if (world_target_) to_local(spec->target.emplace(*world_target_));
+  if (spec->later) to_local(spec->later->target);
+  spec->controls.ToLocal(ground_);
+  for (size_t i = 0; i < spec->controls.rows().size(); ++i)
+    spec->controls[i].values = spec->controls[i].values.unaryExpr(&ToFloat);
+  if (spec->after)
+    spec->after = ground_.ToLocal(*spec->after);
+  else if (spec->target && (spec->hit || held_))
+    spec->after = spec->target->pose;  // at rest
 }
 
 // The largest ratio of a joint's speed to the limit of human bodies. 0 if another take would not be
@@ -150,7 +149,7 @@ Slices<ProcessedPlan> TransitionRun::DanceOnce(Sampler& sampler) const {
     plan.poses.assign(static_cast<size_t>(spec_->frames), spec_->target->pose);
   else
     plan = co_await sampler.Begin(spec_);
-  co_return co_await ProcessPlan(*model_, *spec_, held_, std::move(plan));
+  co_return co_await ProcessPlan(*model_, spec_, held_, std::move(plan));
 }
 
 void TransitionRun::SetFrames(const ProcessedPlan& processed) {

@@ -85,7 +85,7 @@ class TransitionRun {
   }
 
  private:
-  TransitionSpec InCanonicalFrame(TransitionSpec spec) const;
+  void ToCanonicalFrame(TransitionSpec* spec) const;
   double ExcessOf(const std::vector<Pose>& poses) const;
   Slices<ProcessedPlan> DanceOnce(Sampler& sampler) const;
   void SetFrames(const ProcessedPlan& processed);

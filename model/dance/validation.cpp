@@ -45,14 +45,6 @@ void ValidateFrames(std::span<const int64_t> frames, const std::string& field) {
   }
 }
 
-void ValidateTemperature(double temperature, const std::string& field) {
-  // Written so that NaN fails too.
-  if (!(temperature >= 0 && temperature <= kMaxTemperature)) {
-    throw InvalidArgument(field,
-                          Show(temperature) + " is not in [0, " + Show(kMaxTemperature) + "]");
-  }
-}
-
 void ValidateShare(double share, const std::string& field) {
   if (!(share >= 0 && share <= 1)) throw InvalidArgument(field, Show(share) + " is not in [0, 1]");
 }

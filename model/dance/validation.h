@@ -30,7 +30,6 @@ void ValidateMask(const Skeleton& skeleton, const PoseMask& mask, const std::str
 /// Checks a control's frames: strictly ascending, within the longest dance.
 void ValidateFrames(std::span<const int64_t> frames, const std::string& field);
 
-void ValidateTemperature(double temperature, const std::string& field);
 void ValidateShare(double share, const std::string& field);
 /// Checks a hit: none, or 0 to kMaxHit.
 void ValidateHit(std::optional<double> hit, const std::string& field);

@@ -80,8 +80,9 @@ Slices<> CorrectFootwork(FootworkContext context, Plan* plan) {
 
 }  // namespace
 
-Slices<ProcessedPlan> ProcessPlan(const ModelInfo& model, const TransitionSpec& spec, bool held,
+Slices<ProcessedPlan> ProcessPlan(const ModelInfo& model, const ValidSpec& valid, bool held,
                                   Plan plan) {
+  const TransitionSpec& spec = *valid;
   CheckLength(plan, static_cast<size_t>(spec.frames));
   CheckFinite(plan, model, spec.first_frame, "as the model makes it");
   ProcessedPlan processed{std::move(plan)};

@@ -17,10 +17,10 @@ struct ProcessedPlan {
 /// Does everything between a network and the frames of a dance, in this order: the plan's stages
 /// (plan_stages.h), unless the model leaves them out; the hit of the key; arrival (arrival.h);
 /// footwork (footwork.h); contacts. `held`: the dancer holds the target's pose, so arrival's path
-/// alone determines the poses. Pauses before each ten seconds of footwork. `model` and `spec`, a
-/// ValidSpec's, must outlive the slices. Throws Error(kInternal) for a plan of the wrong length,
+/// alone determines the poses. Pauses before each ten seconds of footwork. `model` and `valid` must
+/// outlive the slices. Throws Error(kInternal) for a plan of the wrong length,
 /// and for any value that is not finite.
-Slices<ProcessedPlan> ProcessPlan(const ModelInfo& model, const TransitionSpec& spec, bool held,
+Slices<ProcessedPlan> ProcessPlan(const ModelInfo& model, const ValidSpec& valid, bool held,
                                   Plan plan);
 
 }  // namespace choreo

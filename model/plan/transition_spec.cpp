@@ -5,6 +5,8 @@
 #include <utility>
 
 #include "model/core/error.h"
+#include "model/core/field.h"
+#include "model/core/nearest.h"
 #include "model/motion/pose_limits.h"
 
 namespace choreo {
@@ -41,6 +43,20 @@ std::optional<Arrival> ArrivalOf(const TransitionSpec& spec, Arrival::Lead lead)
   return Arrival(spec.arrival_frames, spec.frames, *spec.target, spec.history, spec.after, lead);
 }
 
+void CheckManner(const ModelInfo& model, double temperature, const std::string& style) {
+  if (!(temperature >= 0 && temperature <= kMaxTemperature)) {  // true for NaN, too
+    throw InvalidArgument("temperature",
+                          Show(temperature) + " is not in [0, " + Show(kMaxTemperature) + "]");
+  }
+  if (style.empty() || std::ranges::find(model.styles, style) != model.styles.end()) return;
+  if (style.size() > kMaxIdLength) {
+    throw InvalidArgument("style", "has " + std::to_string(style.size()) + " bytes, at most " +
+                                       std::to_string(kMaxIdLength));
+  }
+  throw InvalidArgument("style", "\"" + style + "\" is not a style of the model " + model.name +
+                                     "; " + DidYouMean(style, model.styles));
+}
+
 ValidSpec::ValidSpec(TransitionSpec request, const ModelInfo& model) : Valid(std::move(request)) {
   const TransitionSpec& spec = **this;
   if (spec.frames < 1 || spec.frames > model.max_transition_frames) {
@@ -71,6 +87,7 @@ ValidSpec::ValidSpec(TransitionSpec request, const ModelInfo& model) : Valid(std
                                             std::to_string(spec.frames));
   }
   spec.controls.Check(model.controls, model.name, spec.frames);
+  CheckManner(model, spec.temperature, spec.style);
 }
 
 }  // namespace choreo

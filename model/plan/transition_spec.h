@@ -120,11 +120,15 @@ struct TransitionSpec {
   bool footwork = true;
 };
 
+/// Throws Error(kInvalidArgument), field "temperature" or "style", unless the model dances so.
+void CheckManner(const ModelInfo& model, double temperature, const std::string& style);
+
 /// A spec checked against its model.
 class ValidSpec : public Valid<TransitionSpec> {
  public:
   /// Throws Error(kInvalidArgument), naming the field, unless frames, history, joints, mask, music
-  /// rows and controls have the model's shape, and for a control that the model lacks.
+  /// rows and controls have the model's shape, for a control that the model lacks, and what
+  /// CheckManner throws.
   ValidSpec(TransitionSpec spec, const ModelInfo& model);
 
   /// For another take (plan/takes.h).
@@ -132,6 +136,8 @@ class ValidSpec : public Valid<TransitionSpec> {
     request_.candidate = candidate;
     request_.spare_frames = spare_frames;
   }
+  /// Describes the same transition in another frame of reference: `change` alters nothing else.
+  void ChangeFrame(const auto& change) { change(&request_); }
 };
 
 /// Whether the spec's target fixes the root's position or a joint.

@@ -18,7 +18,10 @@ class ProcessPlanTest : public ::testing::Test {
     plan_.poses.assign(60, RestPose(model_.skeleton));
     for (Pose& pose : plan_.poses) pose.root_position.y() += 0.2;
   }
-  Plan Process(bool held = false) { return ProcessPlan(model_, spec_, held, plan_).Finish().plan; }
+  Plan Process(bool held = false) {
+    const ValidSpec valid(spec_, model_);
+    return ProcessPlan(model_, valid, held, plan_).Finish().plan;
+  }
   double Fall(const Plan& processed) const {
     return plan_.poses.back().root_position.y() - processed.poses.back().root_position.y();
   }

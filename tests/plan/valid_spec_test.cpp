@@ -1,16 +1,17 @@
+#include "model/plan/transition_spec.h"
+
 #include <gtest/gtest.h>
 
 #include <limits>
 
 #include "model/motion/kinematics.h"
-#include "model/plan/transition_spec.h"
 #include "tests/support/expect_error.h"
 
-namespace choreo::controls_test {
+namespace choreo::valid_spec_test {
 
-class ControlsTest : public testing::Test {
+class ValidSpecTest : public testing::Test {
  protected:
-  ControlsTest() {
+  ValidSpecTest() {
     model_.name = "walker";
     model_.skeleton = Skeleton::Smpl24();
     model_.controls = ControlNames();
@@ -28,7 +29,7 @@ class ControlsTest : public testing::Test {
   TransitionSpec spec_;
 };
 
-TEST_F(ControlsTest, AreTakenBothOrEitherOrNone) {
+TEST_F(ValidSpecTest, TakesBothControlsOrEitherOrNone) {
   EXPECT_NO_THROW(ValidSpec(spec_, model_));
   spec_.controls[kRootPath].values.resize(3, 0);
   EXPECT_NO_THROW(ValidSpec(spec_, model_));
@@ -36,7 +37,7 @@ TEST_F(ControlsTest, AreTakenBothOrEitherOrNone) {
   EXPECT_NO_THROW(ValidSpec(spec_, model_));
 }
 
-TEST_F(ControlsTest, UnknownControlsAreRefused) {
+TEST_F(ValidSpecTest, RefusesUnknownControls) {
   std::erase(model_.controls, "root_path");
   ExpectRefused("controls.root_path: the model 'walker' does not take it");
   spec_.controls[kRootPath].values.resize(3, 0);
@@ -44,7 +45,7 @@ TEST_F(ControlsTest, UnknownControlsAreRefused) {
   ExpectRefused("controls.velocity_factors: the model 'walker' does not take it");
 }
 
-TEST_F(ControlsTest, OfTheWrongSizeAreRefused) {
+TEST_F(ValidSpecTest, RefusesControlsOfTheWrongSize) {
   spec_.controls[kRootPath].values.setZero(3, 4);
   ExpectRefused("controls.root_path: 4 frames, must be 5");
   spec_.controls[kRootPath].values.resize(3, 0);
@@ -52,11 +53,23 @@ TEST_F(ControlsTest, OfTheWrongSizeAreRefused) {
   ExpectRefused("controls.velocity_factors: 6 frames, must be 5");
 }
 
-TEST_F(ControlsTest, NonFiniteOrNegativeAreRefused) {
+TEST_F(ValidSpecTest, RefusesControlsThatAreNotFiniteOrNegative) {
   spec_.controls[kVelocityFactors].values(2, 3) = -0.01F;
   ExpectRefused("controls.velocity_factors: -0.01");
   spec_.controls[kRootPath].values(1, 4) = std::numeric_limits<float>::quiet_NaN();
   ExpectRefused("controls.root_path: not finite");
 }
 
-}  // namespace choreo::controls_test
+TEST_F(ValidSpecTest, RefusesStylesAndTemperaturesThatTheModelLacks) {
+  model_.styles = {"calm"};
+  spec_.style = "Calm";
+  ExpectRefused("style: \"Calm\" is not a style of the model walker; did you mean calm?");
+  spec_.style = "calm";
+  EXPECT_NO_THROW(ValidSpec(spec_, model_));
+  spec_.temperature = 2.5F;
+  ExpectRefused("temperature: 2.5 is not in [0, 2]");
+  spec_.temperature = std::numeric_limits<float>::quiet_NaN();
+  ExpectRefused("temperature: nan is not in [0, 2]");
+}
+
+}  // namespace choreo::valid_spec_test
