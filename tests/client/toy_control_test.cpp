@@ -18,8 +18,49 @@
 #include "tests/support/expect_error.h"
 #include "tests/support/toy_control.h"
 
+namespace choreo {
+namespace toy {
+
+/// Where the dancer looks in each frame: the latest request, interpolated between its rows.
+class GazeTrack {
+ public:
+  static void Validate(const Gaze& gaze, const ModelInfo& /*model*/, const std::string& field) {
+    if (!gaze.IsWhole()) throw InvalidArgument(field, "there must be a place for each frame");
+  }
+  ChangedFrames Set(const Gaze& gaze, int64_t from) {
+    requests_.push_back({from, std::make_shared<Gaze>(gaze)});
+    return {};
+  }
+  void Fill(const ModelInfo& /*model*/, const std::string& /*key_id*/, TransitionSpec* spec,
+            ControlCurve* curve, std::vector<Warning>* /*warnings*/) const {
+    if (requests_.empty()) return;
+    const Gaze& gaze = *requests_.back().what;
+    const auto rows =
+        Eigen::Map<const Eigen::Matrix3Xd>(gaze.values.data(), 3, std::ssize(gaze.values) / 3);
+    curve->values.resize(3, spec->frames);
+    for (int i = 0; i < spec->frames; ++i) {
+      const auto [row, share] = PlaceAmong(gaze.frames, spec->first_frame + i);
+      const auto at = static_cast<Eigen::Index>(row);
+      curve->values.col(i) = rows.col(at);
+      if (share > 0) curve->values.col(i) += double{share} * (rows.col(at + 1) - rows.col(at));
+    }
+  }
+
+ private:
+  std::vector<EffectiveFrom<Gaze>> requests_;
+};
+
+}  // namespace toy
+
+template <>
+struct TrackFor<toy::Gaze> {
+  using Track = toy::GazeTrack;
+};
+
+}  // namespace choreo
+
 // A control that people write reaches the network and the report through code that does not name
-// it. Only its row, its request and its message are its own.
+// it. Only its row, its request, its track and its message are its own.
 namespace choreo::toy_way_test {
 
 using Track = ControlTrackOf<toy::ControlRequest, toy::EachControl<TrackOf>>;

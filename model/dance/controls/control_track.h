@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "model/core/error.h"
-#include "model/dance/controls/held_track.h"
 #include "model/dance/controls/path_track.h"
+#include "model/dance/controls/track_frames.h"
 #include "model/dance/controls/velocity_track.h"
 #include "model/dance/spec_poses.h"
 #include "model/dance/warning.h"
@@ -24,12 +24,10 @@ namespace choreo {
 inline constexpr size_t kMaxControls = 1000;
 inline constexpr size_t kMaxControlValues = 1'000'000;
 
-/// Selects the class that tracks a control's requests over a dance. It has Validate, Set and Fill
-/// like HeldTrack, and may have Stance, BehindEnd and Missed.
+/// Selects the class that tracks a control's requests over a dance. It has Validate, Set and Fill,
+/// and may have Stance, BehindEnd and Missed.
 template <typename Request>
-struct TrackFor {
-  using Track = HeldTrack<Request>;
-};
+struct TrackFor;
 template <>
 struct TrackFor<RootPath> {
   using Track = PathTrack;

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "model/dance/controls/held_track.h"
+#include "model/dance/controls/track_frames.h"
 #include "model/dance/spec_poses.h"
 #include "model/dance/warning.h"
 #include "model/messages/quality_report.h"
