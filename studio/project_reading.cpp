@@ -126,9 +126,7 @@ void AddSettings(const authoring::Project& read, const std::string& name,
   out->set_song(read.song);
   if (read.seconds) out->set_seconds(*read.seconds);
   if (read.seed) out->set_seed(ForPage(*read.seed, name + ":seed"));
-  out->set_style(read.style);
-  if (read.music_dynamics) out->set_music_dynamics(*read.music_dynamics);
-  if (read.variation) out->set_variation(*read.variation);
+  wire::Write(read, out);
   if (!read.beats.empty()) {
     out->mutable_beats()->set_bar(static_cast<uint32_t>(read.bar));
     out->mutable_beats()->mutable_times()->Add(read.beats.begin(), read.beats.end());

@@ -97,9 +97,14 @@ ordered_json ProjectJson(const StudioContext& context, const Project& project) {
   ordered_json file = {{"studio", 1}, {"song", project.song()}};
   if (project.has_seconds()) file["seconds"] = Number(project.seconds());
   if (project.has_seed()) file["seed"] = project.seed();
-  file["style"] = project.style();
-  if (project.has_music_dynamics()) file["music_dynamics"] = Number(project.music_dynamics());
-  if (project.has_variation()) file["variation"] = Number(project.variation());
+  const auto write = [&file](const char* name, const auto& setting) {
+    if constexpr (requires { setting.has_value(); }) {
+      if (setting) file[name] = Number(*setting);
+    } else {
+      file[name] = setting;
+    }
+  };
+  DanceManner::VisitSettings(write, wire::MannerOf(project));
   if (project.has_beats()) {
     file["bar"] = project.beats().bar();
     ordered_json& beats = file["beats"] = ordered_json::array();

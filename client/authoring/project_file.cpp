@@ -25,14 +25,20 @@ std::string Text(const json& file, const std::string& name, const char* member) 
   return file[member].get<std::string>();
 }
 
-std::optional<double> Share(const json& file, const std::string& name, const char* member) {
-  if (!file.contains(member)) return std::nullopt;
-  const std::string field = name + ":" + member;
-  const double share = JsonNumber(file[member], field);
-  if (!(share >= 0 && share <= 1))
-    throw InvalidArgument(field, Shown(file[member]) + " is not a number from 0 to 1");
-  return share;
-}
+/// Reads a setting of the manner if the project states it.
+struct SettingReader {
+  const json& file;
+  const std::string& name;
+
+  void operator()(const char* member, std::string& text) const { text = Text(file, name, member); }
+  void operator()(const char* member, std::optional<double>& share) const {
+    if (!file.contains(member)) return;
+    const std::string field = name + ":" + member;
+    share = JsonNumber(file[member], field);
+    if (!(*share >= 0 && *share <= 1))
+      throw InvalidArgument(field, Shown(file[member]) + " is not a number from 0 to 1");
+  }
+};
 
 bool IsCount(const json& value) {
   return IsFrameNumber(value) && value.get<uint64_t>() >= 1 &&
@@ -173,9 +179,7 @@ Project ParseProject(const json& file, const std::string& name, std::span<const 
   Project project;
   project.has_keys = !has_no_keys;
   project.song = Text(file, name, "song");
-  project.style = Text(file, name, "style");
-  project.music_dynamics = Share(file, name, "music_dynamics");
-  project.variation = Share(file, name, "variation");
+  DanceManner::VisitSettings(SettingReader{file, name}, project);
   if (file.contains("seconds")) {
     project.seconds = JsonNumber(file["seconds"], name + ":seconds");
     if (!(*project.seconds > 0 && *project.seconds <= kMaxDanceSeconds)) {

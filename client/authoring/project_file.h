@@ -35,8 +35,8 @@ struct Project : DanceManner {
   bool has_dancers = false;  ///< whether there are several dancers, for ReadDancers (dancers.h)
 };
 
-/// Parses a project: JSON with `studio` (1), `song`, `seconds`, `seed`, `style`, `music_dynamics`,
-/// `variation`, `beats` (each with its second and count), `bar` (its number of beats), `controls`
+/// Parses a project: JSON with `studio` (1), `song`, `seconds`, `seed`, a manner's settings except
+/// `temperature`, `beats` (each with its second and count), `bar` (its number of beats), `controls`
 /// (by their names, with the fields of the API's messages), `path` (as in a path file), `lively`
 /// (the velocity factors of parts, in older projects), `markers` (each with `time` and `name`; no
 /// frame depends on them), `dancers` and `apart` (both ignored here), and `keyframes`. `name` is

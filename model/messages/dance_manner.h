@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "model/core/limits.h"
@@ -12,7 +13,7 @@
 /// them. client::DanceConfig has members of the same names.
 namespace choreo {
 
-/// How to dance. Empty: not stated.
+/// How to dance. Empty: not stated. docs/extending.md says what another setting needs.
 struct DanceManner {
   std::optional<double> temperature = {};  ///< 0 to kMaxTemperature; none: the model's
   std::string style = {};                  ///< one of the model's; empty: any
@@ -22,14 +23,29 @@ struct DanceManner {
   /// kDefaultVariation.
   std::optional<double> variation = {};
 
+  /// Calls `visit(name, setting...)` for each setting, as the API calls it, with those of these
+  /// manners, or requests that have the same members.
+  static void VisitSettings(const auto& visit, auto&&... each) {
+    visit("temperature", each.temperature...);
+    visit("style", each.style...);
+    visit("music_dynamics", each.music_dynamics...);
+    visit("variation", each.variation...);
+  }
+
   static DanceManner Of(const auto& request) {
-    return {request.temperature, request.style, request.music_dynamics, request.variation};
+    DanceManner manner;
+    VisitSettings([](const char*, const auto& from, auto& to) { to = from; }, request, manner);
+    return manner;
   }
   void SetIn(auto* request) const {
-    request->temperature = temperature;
-    request->style = style;
-    request->music_dynamics = music_dynamics;
-    request->variation = variation;
+    VisitSettings([](const char*, const auto& from, auto& to) { to = from; }, *this, *request);
+  }
+  /// States what is not stated as `other` does.
+  void FillFrom(const DanceManner& other) {
+    const auto fill = [](const char*, const auto& from, auto& to) {
+      if (to == std::remove_cvref_t<decltype(to)>()) to = from;
+    };
+    VisitSettings(fill, other, *this);
   }
 
   double Dynamics() const { return music_dynamics.value_or(kDefaultDynamics); }

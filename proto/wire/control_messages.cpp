@@ -1,7 +1,5 @@
 #include "proto/wire/control_messages.h"
 
-#include <optional>
-
 #include "model/core/error.h"
 #include "model/core/field.h"
 #include "model/motion/controls.h"
@@ -32,21 +30,21 @@ const FieldDescriptor* FieldOf(const Message& message, std::string_view name) {
               message.GetTypeName() + " has no field " + std::string(name));
 }
 
-void ControlWriter::operator()(const char* name, const std::vector<int64_t>& frames) const {
+void FieldWriter::operator()(const char* name, const std::vector<int64_t>& frames) const {
   for (const int64_t frame : frames)
     out_->GetReflection()->AddInt64(out_, FieldOf(*out_, name), frame);
 }
 
-void ControlWriter::operator()(const char* name, const std::vector<double>& values) const {
+void FieldWriter::operator()(const char* name, const std::vector<double>& values) const {
   for (const double value : values)
     out_->GetReflection()->AddFloat(out_, FieldOf(*out_, name), static_cast<float>(value));
 }
 
-void ControlWriter::operator()(const char* name, const std::vector<Eigen::Vector2d>& points) const {
+void FieldWriter::operator()(const char* name, const std::vector<Eigen::Vector2d>& points) const {
   for (const Eigen::Vector2d& point : points) (*this)(name, std::vector{point.x(), point.y()});
 }
 
-void ControlWriter::operator()(const char* name, const std::vector<std::string>& parts) const {
+void FieldWriter::operator()(const char* name, const std::vector<std::string>& parts) const {
   for (const std::string& part : parts) {
     const std::optional<BodyPart> known = FindBodyPart(part);
     if (!known) {
@@ -57,23 +55,27 @@ void ControlWriter::operator()(const char* name, const std::vector<std::string>&
   }
 }
 
-void ControlWriter::operator()(const char* name, const std::string& text) const {
+void FieldWriter::operator()(const char* name, const std::string& text) const {
   out_->GetReflection()->SetString(out_, FieldOf(*out_, name), text);
 }
 
-void ControlReader::operator()(const char* name, std::vector<int64_t>& frames) const {
+void FieldWriter::operator()(const char* name, const std::optional<double>& number) const {
+  if (number) out_->GetReflection()->SetDouble(out_, FieldOf(*out_, name), *number);
+}
+
+void FieldReader::operator()(const char* name, std::vector<int64_t>& frames) const {
   frames = All(message_, name, [this](const FieldDescriptor* field, int i) {
     return message_.GetReflection()->GetRepeatedInt64(message_, field, i);
   });
 }
 
-void ControlReader::operator()(const char* name, std::vector<double>& values) const {
+void FieldReader::operator()(const char* name, std::vector<double>& values) const {
   values = All(message_, name, [this](const FieldDescriptor* field, int i) -> double {
     return message_.GetReflection()->GetRepeatedFloat(message_, field, i);
   });
 }
 
-void ControlReader::operator()(const char* name, std::vector<Eigen::Vector2d>& points) const {
+void FieldReader::operator()(const char* name, std::vector<Eigen::Vector2d>& points) const {
   std::vector<double> numbers;
   (*this)(name, numbers);
   if (numbers.size() % 2 != 0) {
@@ -83,7 +85,7 @@ void ControlReader::operator()(const char* name, std::vector<Eigen::Vector2d>& p
   for (size_t i = 0; i < numbers.size(); i += 2) points.emplace_back(numbers[i], numbers[i + 1]);
 }
 
-void ControlReader::operator()(const char* name, std::vector<std::string>& parts) const {
+void FieldReader::operator()(const char* name, std::vector<std::string>& parts) const {
   parts = All(message_, name, [this, name](const FieldDescriptor* field, int i) {
     const int number = message_.GetReflection()->GetRepeatedEnumValue(message_, field, i);
     const int part = number - v1::BODY_PART_TRUNK;
@@ -94,8 +96,14 @@ void ControlReader::operator()(const char* name, std::vector<std::string>& parts
   });
 }
 
-void ControlReader::operator()(const char* name, std::string& text) const {
+void FieldReader::operator()(const char* name, std::string& text) const {
   text = message_.GetReflection()->GetString(message_, FieldOf(message_, name));
+}
+
+void FieldReader::operator()(const char* name, std::optional<double>& number) const {
+  const FieldDescriptor* field = message_.GetDescriptor()->FindFieldByName(name);
+  if (field && message_.GetReflection()->HasField(message_, field))
+    number = message_.GetReflection()->GetDouble(message_, field);
 }
 
 v1::Controls ToProto(const ControlRequest& controls) {

@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -24,11 +25,11 @@ v1::Controls ToProto(const ControlRequest& controls);
 /// unknown body parts. The engine validates the values.
 ControlRequest FromProto(const v1::Controls& controls, const std::string& field);
 
-/// Writes a control's fields (VisitFields) into its message's fields of the same names. `field`:
-/// the control's path in errors.
-class ControlWriter {
+/// Writes a control's fields (VisitFields), or a manner's settings (VisitSettings), into their
+/// message's fields of the same names. `field`: the control's path in errors.
+class FieldWriter {
  public:
-  ControlWriter(google::protobuf::Message* out, std::string field)
+  FieldWriter(google::protobuf::Message* out, std::string field)
       : out_(out), field_(std::move(field)) {}
 
   void operator()(const char* name, const std::vector<int64_t>& frames) const;
@@ -36,17 +37,18 @@ class ControlWriter {
   void operator()(const char* name, const std::vector<Eigen::Vector2d>& points) const;
   void operator()(const char* name, const std::vector<std::string>& parts) const;
   void operator()(const char* name, const std::string& text) const;
+  void operator()(const char* name, const std::optional<double>& number) const;
 
  private:
   google::protobuf::Message* out_;
   std::string field_;
 };
 
-/// Reads a control's fields from its message.
-class ControlReader {
+/// Reads the same from their message.
+class FieldReader {
  public:
   /// The message must outlive this object.
-  ControlReader(const google::protobuf::Message& message, std::string field)
+  FieldReader(const google::protobuf::Message& message, std::string field)
       : message_(message), field_(std::move(field)) {}
 
   void operator()(const char* name, std::vector<int64_t>& frames) const;
@@ -54,6 +56,8 @@ class ControlReader {
   void operator()(const char* name, std::vector<Eigen::Vector2d>& points) const;
   void operator()(const char* name, std::vector<std::string>& parts) const;
   void operator()(const char* name, std::string& text) const;
+  /// None if it is not sent, or not a field of this message.
+  void operator()(const char* name, std::optional<double>& number) const;
 
  private:
   const google::protobuf::Message& message_;
@@ -74,7 +78,7 @@ void WriteControls(const Request& request, google::protobuf::Message* out,
         const std::string name(rows[row].name);
         control->VisitFields(
             *control,
-            ControlWriter(out->GetReflection()->MutableMessage(out, FieldOf(*out, name)), name));
+            FieldWriter(out->GetReflection()->MutableMessage(out, FieldOf(*out, name)), name));
       },
       request);
 }
@@ -91,7 +95,7 @@ void ReadControls(const google::protobuf::Message& message, const std::string& f
         control.emplace();
         control->VisitFields(
             *control,
-            ControlReader(message.GetReflection()->GetMessage(message, sent), field + '.' + name));
+            FieldReader(message.GetReflection()->GetMessage(message, sent), field + '.' + name));
       },
       *request);
 }

@@ -25,8 +25,9 @@ namespace choreo::wire {
 v1::Skeleton ToProto(const Skeleton& skeleton);
 v1::MusicPassage ToProto(const Passage& passage);
 v1::HandPose ToProto(HandPose hands);
-/// Sets the message's fields of the same names.
-void Write(const DanceManner& manner, v1::DanceConfig* out);
+/// Sets the message's fields of the same names. A manner may be part of any message that has those
+/// of its settings that it states.
+void Write(const DanceManner& manner, google::protobuf::Message* out);
 void Write(const KnownMusic& music, v1::DanceConfig* out);
 v1::ModelInfo ToProto(const ModelDescription& model);
 /// Writes the header, which declares frames in axis-angle.
@@ -36,7 +37,8 @@ v1::Timing ToProto(const CallTiming& timing);
 /// `fps`: the model's frame rate, at which frames are counted.
 v1::Event ToProto(const DanceEvent& event, double fps);
 
-/// Reads a client's message, without checks.
+/// Reads a client's message, without checks. Settings that the message lacks are not stated.
+DanceManner MannerOf(const google::protobuf::Message& message);
 KnownMusic MusicOf(const v1::DanceConfig& config);
 std::vector<Passage> ToPassages(const google::protobuf::RepeatedPtrField<v1::MusicPassage>& sent);
 

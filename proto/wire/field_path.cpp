@@ -3,13 +3,15 @@
 #include <array>
 #include <utility>
 
+#include "model/messages/dance_manner.h"
+
 namespace choreo::wire {
 namespace {
 
 // What the model's errors call a value, and its path in StreamDanceRequest or
 // GenerateTransitionRequest. The first row that begins a field applies, so longer rows come first.
-// Names that are the path already ("target_id", "controls") need no row.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 32> kPaths = {{
+// Names that are the path already ("target_id", "controls") need no row, nor do settings.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 28> kPaths = {{
     // DanceConfig and GroupRequest
     {"audio", "config.audio_format"},
     {"before", "config.history"},
@@ -21,15 +23,11 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 32> kPaths =
     {"hit", "target_hit"},
     {"music_beats", "config.music_beats"},
     {"music_downbeats", "config.music_downbeats"},
-    {"music_dynamics", "config.music_dynamics"},
     {"music_energies", "config.music_energies"},
     {"music_passages", "config.music_passages"},
     {"output_fps", "config.frame_rate"},
     {"samples", "audio.data"},
-    {"style", "config.style"},
     {"target.mask", "target_mask"},
-    {"temperature", "config.temperature"},
-    {"variation", "config.variation"},
     // DanceStream
     {"beats", "music_beats.times"},
     {"confidence", "music_beats.confidence"},
@@ -50,13 +48,19 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 32> kPaths =
 }  // namespace
 
 std::string PathOf(std::string_view field) {
+  std::string path(field);
+  DanceManner::VisitSettings(
+      [&](const char* setting, const auto&) {
+        if (field == setting) path = "config." + path;
+      },
+      DanceManner());
   for (const auto& [own, sent] : kPaths) {
     if (!field.starts_with(own)) continue;
     const std::string_view rest = field.substr(own.size());
     if (rest.empty() || rest.front() == '.' || rest.front() == '[')
       return std::string(sent).append(rest);
   }
-  return std::string(field);
+  return path;
 }
 
 }  // namespace choreo::wire

@@ -4,6 +4,7 @@
 #include "model/core/error.h"
 #include "model/motion/controls.h"
 #include "model/motion/velocity_factors.h"
+#include "proto/wire/control_messages.h"
 #include "proto/wire/convert.h"
 
 namespace choreo::wire {
@@ -29,6 +30,12 @@ Code ToCode(int number, Code last) {
 
 Error Broken(const std::string& what) {
   return {ErrorCode::kInternal, "", "the server broke the protocol: " + what};
+}
+
+DanceManner MannerOf(const google::protobuf::Message& message) {
+  DanceManner manner;
+  DanceManner::VisitSettings(FieldReader(message, ""), manner);
+  return manner;
 }
 
 KnownMusic MusicOf(const v1::DanceConfig& config) {

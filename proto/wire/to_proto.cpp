@@ -1,4 +1,5 @@
 #include "model/motion/controls.h"
+#include "proto/wire/control_messages.h"
 #include "proto/wire/convert.h"
 
 namespace choreo::wire {
@@ -73,11 +74,8 @@ v1::HandPose ToProto(HandPose hands) {
   return static_cast<v1::HandPose>(v1::HAND_POSE_REST + static_cast<int>(hands));
 }
 
-void Write(const DanceManner& manner, v1::DanceConfig* out) {
-  if (manner.temperature) out->set_temperature(*manner.temperature);
-  out->set_style(manner.style);
-  if (manner.music_dynamics) out->set_music_dynamics(*manner.music_dynamics);
-  if (manner.variation) out->set_variation(*manner.variation);
+void Write(const DanceManner& manner, google::protobuf::Message* out) {
+  DanceManner::VisitSettings(FieldWriter(out, ""), manner);
 }
 
 void Write(const KnownMusic& music, v1::DanceConfig* out) {

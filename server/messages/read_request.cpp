@@ -27,20 +27,12 @@ std::vector<Pose> ToHistory(const v1::History& history, const ModelInfo& model) 
   return poses;
 }
 
-DanceManner MannerOf(const v1::DanceConfig& config) {
-  DanceManner manner{.style = config.style()};
-  if (config.has_temperature()) manner.temperature = config.temperature();
-  if (config.has_music_dynamics()) manner.music_dynamics = config.music_dynamics();
-  if (config.has_variation()) manner.variation = config.variation();
-  return manner;
-}
-
 // Reads the part of the configuration that both RPCs share.
 void FillCommon(const v1::DanceConfig& config, const ModelInfo& model, uint64_t fresh_seed,
                 DanceStart* out) {
   wire::NumbersPerJoint(config.encoding(), "config.encoding");
   out->output_fps = config.frame_rate() == 0 ? model.fps : config.frame_rate();
-  static_cast<DanceManner&>(*out) = MannerOf(config);
+  static_cast<DanceManner&>(*out) = wire::MannerOf(config);
   static_cast<KnownMusic&>(*out) = wire::MusicOf(config);
   out->seed = config.has_seed()           ? config.seed()
               : config.has_continuation() ? config.continuation().seed()

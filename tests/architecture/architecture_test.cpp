@@ -427,10 +427,10 @@ TEST(Architecture, WhatServersSayNamesNoOptions) {
   EXPECT_GT(read, 100);
 }
 
-// As the page says; toy_control_test adds one without more than these.
-TEST(Architecture, AControlIsAddedInFewFiles) {
+// The files that a recipe of docs/extending.md has in its table.
+std::set<std::string> FilesToAdd(const std::string& recipe_of) {
   const std::string& text = TextOf("docs/extending.md");
-  const size_t begin = text.find("## A control"), end = text.find("\n## ", begin);
+  const size_t begin = text.find("## " + recipe_of + "\n"), end = text.find("\n## ", begin);
   const std::string recipe = text.substr(begin, end - begin);
   const std::regex row(R"(\n\| [0-9]\.[^|]*\|[^`]*`([^`]*)`)");
   std::set<std::string> files;
@@ -438,7 +438,26 @@ TEST(Architecture, AControlIsAddedInFewFiles) {
     files.insert((*at)[1]);
     EXPECT_FALSE(TextOf((*at)[1]).empty()) << (*at)[1];
   }
-  EXPECT_EQ(files.size(), 8U);
+  return files;
+}
+
+// As the page says; toy_control_test adds one without more than these.
+TEST(Architecture, AControlIsAddedInFewFiles) { EXPECT_EQ(FilesToAdd("A control").size(), 8U); }
+
+// No other file names one that has no further use.
+TEST(Architecture, ASettingIsAddedInFewFiles) {
+  const std::set<std::string> files = FilesToAdd("A setting of a whole dance");
+  EXPECT_EQ(files.size(), 7U);
+  const std::regex named(R"(\bmusic_dynamics\b(?!\.h))");
+  std::set<std::string> naming;
+  for (const std::string& file : Sources().files()) {
+    if (file.starts_with("model/evaluation/")) continue;  // measures what it does
+    if (std::regex_search(TextOf(file), named)) naming.insert(file);
+  }
+  for (const std::string& file : files) {
+    if (file.ends_with(".proto")) naming.insert(file);
+  }
+  EXPECT_EQ(naming, files);
 }
 
 // It is opaque: what somebody needs of it, the model's description states by itself.

@@ -57,9 +57,9 @@ class ToyOnTheWire : public ::testing::Test {
 
 TEST_F(ToyOnTheWire, ComesBackAsItWent) {
   const Gaze gaze{{3, 9}, {{1, 2}, {3, 4.5}}, {0.5}, {"left_leg", "trunk"}, "calm"};
-  Gaze::VisitFields(gaze, wire::ControlWriter(message_.get(), "gaze"));
+  Gaze::VisitFields(gaze, wire::FieldWriter(message_.get(), "gaze"));
   Gaze back;
-  Gaze::VisitFields(back, wire::ControlReader(*message_, "controls.gaze"));
+  Gaze::VisitFields(back, wire::FieldReader(*message_, "controls.gaze"));
   EXPECT_EQ(back.frames, gaze.frames);
   EXPECT_EQ(back.points, gaze.points);
   EXPECT_EQ(back.weights, gaze.weights);
@@ -70,11 +70,11 @@ TEST_F(ToyOnTheWire, ComesBackAsItWent) {
 TEST_F(ToyOnTheWire, ErrorsNameItsFields) {
   Gaze gaze{.frames = {}, .points = {}, .weights = {}, .parts = {"tail"}, .reference = {}};
   ExpectError(ErrorCode::kInvalidArgument, "gaze.parts: \"tail\" is none of ",
-              [&] { Gaze::VisitFields(gaze, wire::ControlWriter(message_.get(), "gaze")); });
+              [&] { Gaze::VisitFields(gaze, wire::FieldWriter(message_.get(), "gaze")); });
   const auto* points = message_->GetDescriptor()->FindFieldByName("points");
   message_->GetReflection()->AddFloat(message_.get(), points, 1);
   ExpectError(ErrorCode::kInvalidArgument, "controls.gaze.points: 1 numbers, not two",
-              [&] { Gaze::VisitFields(gaze, wire::ControlReader(*message_, "controls.gaze")); });
+              [&] { Gaze::VisitFields(gaze, wire::FieldReader(*message_, "controls.gaze")); });
 }
 
 }  // namespace choreo::toy_wire_test

@@ -54,12 +54,9 @@ void FillFromProject(DanceOptions* options) {
   }
   if (!options->seconds) options->seconds = project.seconds;
   if (!options->seed) options->seed = project.seed;
-  if (options->style.empty() && !project.style.empty()) {
-    options->style = project.style;
+  if (options->style.empty() && !project.style.empty())
     options->style_name = options->project + ":style";
-  }
-  if (!options->music_dynamics) options->music_dynamics = project.music_dynamics;
-  if (!options->variation) options->variation = project.variation;
+  options->FillFrom(project);
   if (options->dancers.empty() && project.has_dancers) options->dancers = options->project;
   options->controls.Follow(project.controls);
 }

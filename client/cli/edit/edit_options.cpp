@@ -74,9 +74,16 @@ void FillControls(const ControlRequest& known, const client::ModelDescription& m
   ControlRequest::VisitControls(take, known, *controls);
 }
 
+std::string Shown(const std::string& text) { return text; }
+std::string Shown(const std::optional<uint64_t>& number) { return std::to_string(*number); }
+std::string Shown(const std::optional<double>& number) { return InFull(*number); }
+
 DanceChange ChangeOf(const EditOptions& options) {
-  bool other =
-      !options.style.empty() || options.temperature || options.music_dynamics || options.variation;
+  bool other = false;
+  const auto is_stated = [&other](const char*, const auto& setting) {
+    other = other || setting != std::remove_cvref_t<decltype(setting)>();
+  };
+  DanceManner::VisitSettings(is_stated, options);
   for (size_t row = 0; row < std::size(kControls); ++row)
     other = other || (row != kRootPath && options.controls.IsOption(row));
   if (other) return DanceChange::kOther;
@@ -89,13 +96,13 @@ DanceChange ChangeOf(const EditOptions& options) {
 
 void FillFromReport(bool says_start, EditOptions* options) {
   std::vector<std::string> taken;
-  const auto take = [&](const char* name, const auto& from, auto* to, const std::string& shown) {
+  const auto take = [&](std::string name, const auto& from, auto& to) {
     if (from == std::remove_cvref_t<decltype(from)>()) return;
-    if (*to != std::remove_cvref_t<decltype(*to)>()) return;
-    *to = from;
-    taken.push_back(std::string(name) + " " + shown);
+    if (to != std::remove_cvref_t<decltype(to)>()) return;
+    to = from;
+    std::ranges::replace(name, '_', ' ');
+    taken.push_back(name + " " + Shown(from));
   };
-  const auto number = [](const auto& value) { return value ? InFull(*value) : std::string(); };
   DanceSettings& settings = options->settings;
   if (!options->report.empty()) options->known = ReadReport(options->report);
   settings = options->known.settings;
@@ -104,19 +111,15 @@ void FillFromReport(bool says_start, EditOptions* options) {
     taken.push_back("song " + options->song);
   }
   FillBeats(says_start, options);
-  take("model", settings.model, &options->model, settings.model);
+  take("model", settings.model, options->model);
   options->changed = ChangeOf(*options);
   // Another take needs another seed, unless other settings change.
   if (!options->retakes.empty() && options->changed == DanceChange::kNothing) {
     options->seed = settings.seed.value_or(0) + 1;
     std::cerr << "note: retakes use seed " << *options->seed << "; another --seed gives others\n";
   }
-  take("seed", settings.seed, &options->seed, std::to_string(settings.seed.value_or(0)));
-  take("temperature", settings.temperature, &options->temperature, number(settings.temperature));
-  take("music dynamics", settings.music_dynamics, &options->music_dynamics,
-       number(settings.music_dynamics));
-  take("variation", settings.variation, &options->variation, number(settings.variation));
-  take("style", settings.style, &options->style, settings.style);
+  take("seed", settings.seed, options->seed);
+  DanceManner::VisitSettings(take, settings, *options);
   ControlRequest::VisitControls(
       [&](size_t row, const auto& control) {
         if (control && !options->controls.IsOption(row))

@@ -172,10 +172,6 @@ Error AsTyped(const Error& error) {
       {"camera", "--camera"},
       {"client_certificate", "--client-cert"},
       {"client_key", "--client-key"},
-      {"config.music_dynamics", "--music-dynamics"},
-      {"config.style", "--style"},
-      {"config.temperature", "--temperature"},
-      {"config.variation", "--variation"},
       {"downbeat", "--downbeat"},
       {"keyframes", "--keyframes"},
       {"seconds", "--seconds"},
@@ -193,7 +189,15 @@ Error AsTyped(const Error& error) {
   const auto control = std::ranges::find(kControls, error.field(), &ControlRow::name);
   if (control != std::end(kControls)) return error.Of(std::string(control->option));
   const auto option = kOptions.find(error.field());
-  return option == kOptions.end() ? error : error.Of(option->second);
+  if (option != kOptions.end()) return error.Of(option->second);
+  std::string of_setting;
+  const auto find = [&](std::string name, const auto&) {
+    if (error.field() != "config." + name) return;
+    std::ranges::replace(name, '_', '-');
+    of_setting = "--" + name;
+  };
+  DanceManner::VisitSettings(find, DanceManner());
+  return of_setting.empty() ? error : error.Of(of_setting);
 }
 
 void NoteStyle(const client::ModelDescription& model, const std::string& style) {

@@ -34,10 +34,8 @@ template <typename Report, typename Settings, typename Visit>
 void VisitMembers(Report& report, Settings& settings, const Visit& visit) {
   visit(report, "model", settings.model);
   visit(report, "seed", settings.seed);
-  visit(report, "temperature", settings.temperature);
-  visit(report, "music_dynamics", settings.music_dynamics);
-  visit(report, "variation", settings.variation);
-  visit(report, "style", settings.style);
+  DanceManner::VisitSettings([&](const char* name, auto& setting) { visit(report, name, setting); },
+                             settings);
   visit(report, "song", settings.song);
   visit(report, "song_start", settings.song_start_s);
   visit(report, "music_beats", settings.beats);
