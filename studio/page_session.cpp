@@ -112,9 +112,11 @@ void PageSession::ReceiveLiveBeats(uint32_t call, const LiveBeats& beats) {
   if (found != dances_.end() && found->second.ear) found->second.ear->SetHint(hint);
 }
 
-void PageSession::SendFaults(uint32_t call, const std::vector<client::KeyPose>& keys) {
+void PageSession::SendFaults(uint32_t call, const std::vector<client::KeyPose>& keys,
+                             int64_t first_frame) {
   for (const client::Warning& fault :
        authoring::KeyFaults(keys, context_.model().fps, context_.model().skeleton)) {
+    if (fault.frame < first_frame) continue;
     Response response;
     *response.mutable_dance() = ToProto(fault, context_.model().fps);
     Answer(call, std::move(response));
@@ -133,6 +135,8 @@ void PageSession::StartDance(uint32_t call, const Dance& request) {
   auto [config, keys, controls] = DanceOf(context_, request.project(), music.get());
   config.history = PosesOf(request.history(), context_.model().skeleton);
   config.first_frame = request.history().first_frame();
+  // The way to the first new key begins at the one before.
+  const std::vector<client::KeyPose> all_keys = keys.poses;
   std::erase_if(keys.poses, [&, fps = context_.model().fps](const client::KeyPose& key) {
     return authoring::FrameOf(key, fps) < config.first_frame;
   });
@@ -158,7 +162,7 @@ void PageSession::StartDance(uint32_t call, const Dance& request) {
   dancing.ear = std::move(ear);
   dancing.dance = std::move(dance);
   dancing.reader = std::jthread([this, call, &dancing] { ReadDance(call, &dancing); });
-  SendFaults(call, keys.poses);
+  SendFaults(call, all_keys, config.first_frame);
 }
 
 void PageSession::ReadDance(uint32_t call, Dancing* dancing) {

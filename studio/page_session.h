@@ -48,7 +48,7 @@ class PageSession {
   void ReceiveLiveBeats(uint32_t call, const LiveBeats& beats);
   void StartDance(uint32_t call, const Dance& request);
   /// Sends warnings, at the keys' frames, about poses that human bodies cannot reach.
-  void SendFaults(uint32_t call, const std::vector<client::KeyPose>& keys);
+  void SendFaults(uint32_t call, const std::vector<client::KeyPose>& keys, int64_t first_frame = 0);
   void ReadDance(uint32_t call, Dancing* dancing);
   void EndDance(uint32_t call);
   void Reap();

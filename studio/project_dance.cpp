@@ -109,7 +109,10 @@ Response MakeTakes(const StudioContext& context, const Song* song, const Retake&
     *answer.add_frames() = ToProto(client::PartOf(take.dance, gap.from + 1, gap.to)).frames();
     std::ranges::for_each(take.warnings, warn);
   }
-  std::ranges::for_each(authoring::KeyFaults(gap.keys, model.fps, model.skeleton), warn);
+  // Ways into the gap and out of it count, too.
+  for (const client::Warning& fault :
+       authoring::KeyFaults(dance.keys.poses, model.fps, model.skeleton))
+    if (fault.frame > gap.from && fault.frame <= gap.to) warn(fault);
   return response;
 }
 

@@ -89,7 +89,7 @@ std::vector<client::Warning> KeyFaults(const std::vector<client::KeyPose>& keys,
   return KeyFaults(by_time, fps, skeleton);
 }
 
-std::vector<client::Warning> KeyFaults(const client::KeyPose& key, double fps,
+std::vector<client::Warning> KeyFaults(const client::KeyPose& key, int64_t held_to, double fps,
                                        const Skeleton& skeleton,
                                        const std::vector<TimedPose>& around) {
   std::vector<TimedPose> poses = around;
@@ -97,12 +97,16 @@ std::vector<client::Warning> KeyFaults(const client::KeyPose& key, double fps,
   const auto place = std::ranges::find_if(
       poses, [&](const TimedPose& pose) { return pose.seconds > timed.seconds; });
   const auto index = static_cast<size_t>(place - poses.begin());
-  poses.insert(place, timed);
+  // The way from the key begins where its hold ends.
+  TimedPose end = timed;
+  end.seconds = static_cast<double>(held_to) / fps;
+  end.hit.reset();
+  poses.insert(place, {timed, end});
   std::vector<client::Warning> warnings;
   for (const TimedFault& fault : DanceFaults(skeleton, poses)) {
     // Ignores faults of other keys, except on the transitions to and from this key.
-    const bool its_own = fault.pose == index;
-    const bool way_from = fault.pose == index + 1 && fault.on_way;
+    const bool its_own = fault.pose == index || fault.pose == index + 1;
+    const bool way_from = fault.pose == index + 2 && fault.on_way;
     if (!its_own && !way_from) continue;
     client::Warning& warning = warnings.emplace_back();
     warning.frame = FrameOf(key, fps);

@@ -29,9 +29,10 @@ void RefuseHeldInAir(const DanceKeys& keys, double fps, const Skeleton& skeleton
 std::vector<client::Warning> KeyFaults(const std::vector<client::KeyPose>& keys, double fps,
                                        const Skeleton& skeleton);
 
-/// Returns the warnings about a key that is set in a dance. `around`: the poses before and after
-/// it, in order of time, with their names in messages.
-std::vector<client::Warning> KeyFaults(const client::KeyPose& key, double fps,
+/// Returns the warnings about a key that is set in a dance. `held_to`: the last frame in which its
+/// pose is held, or its own. `around`: the poses before and after, in order of time, with their
+/// names in messages.
+std::vector<client::Warning> KeyFaults(const client::KeyPose& key, int64_t held_to, double fps,
                                        const Skeleton& skeleton,
                                        const std::vector<TimedPose>& around);
 

@@ -148,6 +148,40 @@ TEST_F(StudioTest, WarnsOfImpossibleKeys) {
   EXPECT_TRUE(std::ranges::any_of(answer.takes().warnings(), about_floor));
 }
 
+// The pose before an interval, or before a dance that goes on, is on the way, too.
+TEST_F(StudioTest, WarnsOfWaysThatBeginBeforeAnEdit) {
+  const Opened studio(server_.address());
+  Page page(studio.port());
+  LibraryPose low = page.welcome().poses(6);
+  low.set_id("low");
+  low.mutable_pose()->mutable_root_position()->set_y(0.2F);
+  Request dance = DanceRequest(90, 7);
+  Project* project = dance.mutable_dance()->mutable_project();
+  AddKey(low, 30, project);
+  AddKey(page.welcome().poses(6), 45, project);
+  const auto about_rise = [](const v1::Event& event) {
+    return event.frame() == 45 && event.warning().message().find("would rise") != std::string::npos;
+  };
+  Request request;
+  Retake* retake = request.mutable_retake();
+  *retake->mutable_project() = *project;
+  *retake->mutable_dance() = Standing(90);
+  retake->set_from(30);
+  retake->set_to(45);
+  const Response answer = page.Ask(request);
+  ASSERT_TRUE(answer.has_takes()) << answer.failure().message();
+  EXPECT_TRUE(std::ranges::any_of(answer.takes().warnings(), about_rise));
+  retake->set_from(45);
+  retake->set_to(60);
+  EXPECT_TRUE(std::ranges::none_of(page.Ask(request).takes().warnings(), about_rise));
+
+  auto* history = dance.mutable_dance()->mutable_history();
+  history->set_first_frame(31);
+  for (int i = 0; i < 10; ++i) *history->add_poses() = low.pose();
+  page.Say(2, dance);
+  while (!about_rise(page.Read().dance().event())) continue;
+}
+
 TEST_F(StudioTest, DancesInAStyle) {
   const Opened studio(server_.address());
   Page page(studio.port());

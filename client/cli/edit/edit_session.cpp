@@ -298,7 +298,8 @@ void EditSession::WarnOfFaults(const client::KeyEdit& edit) {
     around.push_back({keys_.contains(frame) ? IdAt(frame) : Rounded(Seconds(frame)) + " s",
                       Seconds(frame), PoseAt(dance_.motion, Seconds(frame))});
   }
-  const auto faults = authoring::KeyFaults(edit.key, edit_.model.fps, edit_.model.skeleton, around);
+  const auto faults = authoring::KeyFaults(edit.key, LastFrame(edit), edit_.model.fps,
+                                           edit_.model.skeleton, around);
   ShowWarnings(faults, times_);
   Keep(faults);
 }

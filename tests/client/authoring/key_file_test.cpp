@@ -493,7 +493,21 @@ TEST(KeyFileTest, AKeyHasNoFaultsOfOthersWithSimilarNames) {
   Pose jump = RestPose(body);
   jump.root_position.y() += 0.4;
   const client::KeyPose key{.id = "b", .time_s = 1.5, .pose = jump};
-  EXPECT_TRUE(KeyFaults(key, 30, body, {{"from \"b\"", 1, jump}, {"c", 2.2, jump}}).empty());
+  EXPECT_TRUE(KeyFaults(key, 45, 30, body, {{"from \"b\"", 1, jump}, {"c", 2.2, jump}}).empty());
+}
+
+TEST(KeyFileTest, TheWayFromAHeldKeyBeginsWhereItsHoldEnds) {
+  const Skeleton& body = Skeleton::Smpl24();
+  const Pose stand = RestPose(body);
+  Pose low = stand;
+  low.root_position.y() -= 0.6;
+  const client::KeyPose plank{.id = "plank", .time_s = 2, .pose = low};
+  const std::vector<TimedPose> around = {{"a", 1, stand}, {"up", 3.5, stand}};
+  EXPECT_TRUE(KeyFaults(plank, 60, 30, body, around).empty());
+  const auto faults = KeyFaults(plank, 90, 30, body, around);  // held for a second
+  ASSERT_EQ(faults.size(), 1U);
+  EXPECT_THAT(faults[0].message,
+              testing::HasSubstr("rise 0.6 m in 0.5 s from \"plank\" to \"up\""));
 }
 
 TEST(KeyFileTest, AJumpWithoutAPlaceIsWarnedOf) {
