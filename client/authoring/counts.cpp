@@ -65,6 +65,17 @@ double CountAt(double seconds, const Counts& counted) {
   return PlaceAmong(seconds, counted.beats) - static_cast<double>(counted.one) + 1;
 }
 
+double SecondOf(int64_t frame, double fps, const Counts& counted) {
+  const double second = static_cast<double>(frame) / fps;
+  if (counted.beats.size() < 2) return second;
+  const double place = PlaceAmong(second, counted.beats);
+  for (const int parts : {1, 2, 3, 4}) {
+    const double simple = SecondAt(std::round(place * parts) / parts, counted.beats);
+    if (std::llround(simple * fps) == frame) return simple;
+  }
+  return second;
+}
+
 double Stretched(double seconds, double begin, double times, std::span<const double> beats) {
   if (beats.size() < 2) return begin + times * (seconds - begin);
   const double from = PlaceAmong(begin, beats);

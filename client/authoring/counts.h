@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
@@ -41,6 +42,11 @@ struct WrittenTime {
 
 /// Converts a second to a count, in music with at least two beats: the inverse of WrittenTime::In.
 double CountAt(double seconds, const Counts& counted);
+
+/// The second that a frame stands for: that of the simplest count on it (a whole one, a half, a
+/// third, a quarter), or the frame's own. Keys have frames; this keeps their rounding from being
+/// moved by counts and rounded once more. Without two beats: the frame's own.
+double SecondOf(int64_t frame, double fps, const Counts& counted);
 
 /// Multiplies the distance of `seconds` from `begin` by `times`: in counts if the music has at
 /// least two beats, otherwise in seconds.

@@ -178,6 +178,42 @@ TEST_F(ArrangeTest, RepeatsAPhraseOnItsCounts) {
              before.frames[static_cast<size_t>(keys[2])]);
 }
 
+// A beat lasts 14.1 frames, so beats are rounded to frames: up, down, and up again after eight.
+TEST_F(ArrangeTest, KeysThatCountsMoveAreOnTheirBeatsFrames) {
+  const auto beat = [](int count) { return 0.25 + 0.47 * (count - 1); };
+  const auto frame = [&](double count) { return std::llround(30 * (0.25 + 0.47 * (count - 1))); };
+  std::ofstream beats(folder_ / "beats.txt");
+  for (int count = 1; beat(count) < 10; ++count) beats << beat(count) << ' ' << (count - 1) % 4 + 1 << '\n';
+  beats.close();
+  const std::string song = "--song " + At("song.wav") + " --beats " + At("beats.txt") + ' ';
+  std::ofstream(folder_ / "keys.json")
+      << R"({"keyframes": [{"id": "one", "time": 0, "pose": "kick", "place": [0, 0]},
+                           {"id": "two", "time": 1, "pose": "bow", "place": [0, 0]},
+                           {"id": "three", "time": 2, "pose": "dab", "place": [0, 0]}]})";
+  std::string set;
+  for (const auto& [id, count] : {std::pair("one", "2c"), std::pair("two", "4c"), std::pair("three", "6.5c")})
+    set += "--key " + At("keys.json") + '@' + id + " --at " + count + ' ';
+  ASSERT_EQ(Edit("dance", song + set, "set", Server()).code, 0);
+  const auto at = [this](const std::string& name, const std::string& id) {
+    std::vector<int64_t> frames;
+    const nlohmann::json report = ReadJson(folder_ / (name + ".json"));
+    for (const auto& key : report["keyframes"])
+      if (key["id"] == id) frames.push_back(key["frame"]);
+    return frames;
+  };
+  for (const int later : {7, 8, 9, 10}) {
+    ASSERT_EQ(
+        Edit("set", song + "--repeat 2c 7c " + std::to_string(later) + 'c', "again", Server()).code,
+        0);
+    EXPECT_EQ(at("again", "one"), std::vector({frame(2), frame(2 + later)})) << later;
+    EXPECT_EQ(at("again", "two"), std::vector({frame(4), frame(4 + later)})) << later;
+    EXPECT_EQ(at("again", "three"), std::vector({frame(6.5), frame(6.5 + later)})) << later;
+  }
+  ASSERT_EQ(Edit("set", song + "--stretch 2c 7c 3", "slow", Server()).code, 0);
+  EXPECT_EQ(at("slow", "two"), std::vector({frame(8)}));
+  EXPECT_EQ(at("slow", "three"), std::vector({frame(15.5)}));
+}
+
 TEST_F(ArrangeTest, MirrorsAPhraseWhereTheDancerStands) {
   const std::vector<int64_t> keys = Keys("dance");
   ASSERT_GE(keys.size(), 5U);

@@ -33,13 +33,16 @@ void HoldUntil(int64_t last, client::KeyEdit* edit) {
 
 void EditSession::Repeat(double from_s, double until_s, const std::string& later) {
   const authoring::WrittenTime delay = authoring::ParseTime(later, "--repeat");
-  const auto moved = [&](double seconds) { return delay.After(seconds, counts_, "--repeat"); };
-  if (Frame(moved(from_s)) <= Frame(from_s))
+  const auto moved = [&](int64_t frame) {
+    const double second = delay.counts ? CountedSecond(frame) : Seconds(frame);
+    return Frame(delay.After(second, counts_, "--repeat"));
+  };
+  if (moved(Frame(from_s)) <= Frame(from_s))
     throw InvalidArgument("--repeat", later + " is not later: it must be at least one frame");
   std::vector<client::KeyEdit> phrase = Phrase("--repeat", from_s, until_s);
   for (client::KeyEdit& edit : phrase) {
-    edit.key.frame = FrameInDance("--repeat", moved(Seconds(*edit.key.frame)));
-    for (client::KeyPose& held : edit.held) held.frame = Frame(moved(Seconds(*held.frame)));
+    edit.key.frame = FrameInDance("--repeat", Seconds(moved(*edit.key.frame)));
+    for (client::KeyPose& held : edit.held) held.frame = moved(*held.frame);
   }
   EndWithDance(&phrase.back());
   const int64_t first = *phrase.front().key.frame;
@@ -49,8 +52,8 @@ void EditSession::Repeat(double from_s, double until_s, const std::string& later
   // Removes the keys at the phrase's new place, and those too near to it.
   const std::vector<client::Warning> ended = EndHold(first, phrase.front().key.id);
   const int64_t last = LastFrame(phrase.back());
-  ClearWay(std::min(Frame(moved(from_s)), first - kMinKeyDistance + 1),
-           std::max(Frame(moved(until_s)), last + kMinKeyDistance), {}, "repeated keys");
+  ClearWay(std::min(moved(Frame(from_s)), first - kMinKeyDistance + 1),
+           std::max(moved(Frame(until_s)), last + kMinKeyDistance), {}, "repeated keys");
   for (client::KeyEdit& edit : phrase) {
     carry(edit.key.pose);
     for (client::KeyPose& held : edit.held) carry(held.pose);
@@ -130,7 +133,8 @@ std::vector<client::KeyEdit> EditSession::Phrase(const char* field, double from_
 
 void EditSession::Stretch(double from_s, double until_s, double times) {
   const auto stretched = [&](int64_t frame) {
-    return Frame(authoring::Stretched(Seconds(frame), from_s, times, counts_.beats));
+    return Frame(authoring::Stretched(CountedSecond(frame), CountedSecond(Frame(from_s)), times,
+                                      counts_.beats));
   };
   std::vector<client::KeyEdit> phrase = Phrase("--stretch", from_s, until_s);
   const std::vector<client::KeyEdit> unstretched = phrase;

@@ -68,6 +68,10 @@ class EditSession {
 
  private:
   int64_t Frame(double seconds) const { return std::llround(seconds * edit_.model.fps); }
+  /// As authoring::SecondOf, for times that are moved by counts.
+  double CountedSecond(int64_t frame) const {
+    return authoring::SecondOf(frame, edit_.model.fps, counts_);
+  }
   double Seconds(int64_t frame) const { return static_cast<double>(frame) / edit_.model.fps; }
 
   void CheckKeys() const;

@@ -103,6 +103,14 @@ export function later(seconds: number, counts: number, times: number[]): number 
   return times[at] + (place - at) * (times[at + 1] - times[at]);
 }
 
+/// The second that a frame stands for, as in the program: that of the simplest count on it (a whole one, a half, a third, a quarter), or its own.
+export function secondOf(frame: number, fps: number, times: number[]): number {
+  if (times.length < 2) return frame / fps;
+  const place = placeAmong(frame / fps, times);
+  const simple = [1, 2, 3, 4].map((parts) => later(times[0], Math.round(place * parts) / parts, times));
+  return simple.find((second) => Math.round(second * fps) === frame) ?? frame / fps;
+}
+
 const intervalAt = (place: number, times: number[]) => Math.min(Math.max(place, 0), times.length - 2);
 
 const eachOf = (times: number[], nth: number, first: number) => times.filter((_, i) => i % nth === first % nth);

@@ -3,7 +3,7 @@ import { beats } from './beats';
 import { heading, turned } from './body';
 import type { Triple } from './body';
 import { chosenKeys, moved } from './copies';
-import { later, placeAmong } from './counts';
+import { later, placeAmong, secondOf } from './counts';
 import { onPath } from './floor_path';
 import { edit, total } from './history';
 import { dancer, skeleton } from './link';
@@ -20,6 +20,8 @@ const beside = 0.5; // seconds between two keys without counts
 const timesOf = () => beats.value.list.map(({ time }) => time);
 const isCounted = () => beats.value.list.length > 1;
 const frameOf = (seconds: number) => Math.round(seconds * dancer.fps);
+/// The exact second of a frame that counts move.
+const countedSecond = (frame: number) => secondOf(frame, dancer.fps, timesOf());
 
 /// Selects the frames between two, in any order; fewer than the least distance of keys is no phrase.
 export function choosePhrase(a: number, b: number) {
@@ -74,17 +76,17 @@ export function removePhrase() {
   notify(`${keys.length === 1 ? 'One key is' : `${keys.length} keys are`} taken out. Undo brings them back.`);
 }
 
-/// Maps a second of the phrase to its repetition, which begins at the phrase's end, on the same count.
-function repeated([from, to]: [number, number], last: number): (seconds: number) => number {
+/// Maps a frame of the phrase to its repetition, which begins at the phrase's end, on the same count.
+function repeated([from, to]: [number, number], last: number): (frame: number) => number {
   const { fps } = dancer;
   const times = timesOf();
   if (!isCounted()) {
     const by = last < to ? (to - from) / fps : (to - from) / fps + beside;
-    return (seconds) => seconds + by;
+    return (frame) => frameOf(frame / fps + by);
   }
   const [begin, end] = [placeAmong(from / fps, times), placeAmong(to / fps, times)];
   const counts = last < to ? Math.max(1, Math.round(end - begin)) : Math.floor(end - begin + 0.5) + 1;
-  return (seconds) => later(seconds, counts, times);
+  return (frame) => frameOf(later(countedSecond(frame), counts, times));
 }
 
 /// Repeats the phrase's keys right after it, moved and turned to the dancer's place then, replacing keys there. `withAnotherEnding` omits the last
@@ -95,8 +97,8 @@ export function repeatPhrase(withAnotherEnding = false) {
   const { fps } = dancer;
   const phrase = selection.value!;
   const again = repeated(phrase, keys.at(-1)!.frame);
-  const frameOfKey = ({ frame }: Key) => frameOf(again(frame / fps));
-  const [from, to] = phrase.map((frame) => frameOf(again(frame / fps)));
+  const frameOfKey = ({ frame }: Key) => again(frame);
+  const [from, to] = phrase.map(again);
   const [begin, ending] = [frameOfKey(keys[0]), frameOfKey(keys.at(-1)!)];
   const most = total.value;
   const set = (withAnotherEnding ? keys.slice(0, -1) : keys).filter((key) => frameOfKey(key) < most);
@@ -125,9 +127,9 @@ export function stretchPhrase(times: number) {
   const { fps } = dancer;
   const [from, to] = selection.value!;
   const beatTimes = timesOf();
-  const counted = (frame: number) => placeAmong(frame / fps, beatTimes);
+  const counted = (frame: number) => placeAmong(countedSecond(frame), beatTimes);
   const stretched = (frame: number) =>
-    isCounted() ? frameOf(later(from / fps, times * (counted(frame) - counted(from)), beatTimes)) : Math.round(from + times * (frame - from));
+    isCounted() ? frameOf(later(countedSecond(from), times * (counted(frame) - counted(from)), beatTimes)) : Math.round(from + times * (frame - from));
   const most = total.value;
   const set = keys.map((key) => onPath(project.value.path, {
     ...key, frame: stretched(key.frame), hold: holdOf(times * key.hold, fps),

@@ -27,7 +27,7 @@ const { roughly, timeLeft } = await load('time_left');
 const { emptyProject, freeId, freeName, sorted, displayName, trimmed, withMarker } = await load('project');
 const { ProjectSchema, create, fromBinary, projectMessage, readProject, toBinary } = await load('project_file',
   "export { ProjectSchema } from './generated/studio/studio_pb'; export { create, fromBinary, toBinary } from '@bufbuild/protobuf';");
-const { counted, countedLive, doubled, eight, halved, isDownbeat, later, nudged, placeAmong, pulseOf, tapped, tempo, withOne } = await load('counts');
+const { counted, countedLive, doubled, eight, halved, isDownbeat, later, nudged, placeAmong, pulseOf, secondOf, tapped, tempo, withOne } = await load('counts');
 const { sections } = await load('form');
 const { mostUnlike, unlikeness } = await load('unlike');
 const { only, toQuaternion, toVector, turned, heading } = await load('body');
@@ -200,6 +200,14 @@ test('counts later are the beats further on, and go on where there are none', ()
   near(placeAmong(1.8, times), 1.5);
   near(placeAmong(0.5, times), -1);
   [[1, 2, 2.1], [1.8, 1, 2.3], [2.1, 3, 3.3], [0.5, 1, 1], [0, 1, 0.5]].forEach(([from, counts, to]) => near(later(from, counts, times), to));
+});
+
+test('frames stand for counts, whose rounding does not move', () => {
+  const times = every(0.47, 40, 0.25);
+  const frameAt = (count) => Math.round(later(times[0], count, times) * 30);
+  for (let count = 0; count < 20; count += 0.5)
+    for (const by of [1, 7, 8]) assert.equal(Math.round(later(secondOf(frameAt(count), 30, times), by, times) * 30), frameAt(count + by), `${count} and ${by}`);
+  near(secondOf(10, 30, []), 1 / 3);
 });
 
 test('taps have a pulse, also where some are missing', () => {
