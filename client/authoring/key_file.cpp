@@ -27,7 +27,6 @@ namespace {
 using client::KeyPose;
 using nlohmann::json;
 
-constexpr double kMinHoldSeconds = 0.1;
 constexpr const char* kHold = ".hold";
 constexpr size_t kMaxNamed = 8;  // keys named in a message
 

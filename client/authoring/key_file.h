@@ -25,7 +25,7 @@ inline constexpr double kEditAround = 2;
 /// Seconds within which a neighbouring key counts as near, so that an edit ends there. A dance
 /// approaches a key for as long.
 inline constexpr double kNextKeyNear = 4;
-inline constexpr double kMaxHoldSeconds = 60;  ///< seconds
+inline constexpr double kMinHoldSeconds = 0.1, kMaxHoldSeconds = 60;
 /// Default of how hard a held key is hit: in the dancer's own time.
 inline constexpr double kUsualHit = 1;
 

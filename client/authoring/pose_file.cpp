@@ -13,12 +13,14 @@ namespace {
 
 using nlohmann::json;
 
+/// To 4 decimals, without "-0".
+double Short(double value) { return std::round(value * 1e4) / 1e4 + 0.0; }
+
 std::string VectorText(const Eigen::Vector3d& vector) {
   std::ostringstream text;
   const char* before = "[";
   for (const double value : vector) {
-    // Avoids "-0".
-    text << before << std::round(value * 1e4) / 1e4 + 0.0;
+    text << before << Short(value);
     before = ", ";
   }
   text << "]";
@@ -36,6 +38,7 @@ std::string PoseFileText(const DescribedPose& pose, const Skeleton& skeleton) {
   if (!pose.tags.empty()) text << "  \"tags\": " << json(pose.tags).dump() << ",\n";
   text << "  \"keyframes\": [{\n    \"id\": " << json(key.id).dump()
        << ",\n    \"time\": " << json(key.time_s).dump() << ",\n";
+  if (pose.hold_s > 0) text << "    \"hold\": " << json(Short(pose.hold_s)).dump() << ",\n";
   if (key.hit) text << "    \"hit\": " << json(*key.hit).dump() << ",\n";
   if (key.hands)
     text << "    \"hands\": \"" << kHandPoseNames[static_cast<size_t>(*key.hands)] << "\",\n";
@@ -61,6 +64,8 @@ DescribedPose ParsePoseFile(const std::string& text, const std::string& name,
   DescribedPose pose;
   pose.key = ParseKeyFile(text, name, skeleton).front();
   const json file = json::parse(text);
+  const json& key = file["keyframes"][0];
+  if (key.contains("hold")) pose.hold_s = JsonTime(key["hold"], name + ":keyframes[0].hold").amount;
   const auto require_text = [&](const json& value, const std::string& member) {
     if (!value.is_string() || value.get<std::string>().empty())
       throw InvalidArgument(name + ":" + member, Shown(value) + " is not a text");

@@ -16,6 +16,11 @@ struct NamedPose {
   std::vector<client::KeyPose> held = {};
 };
 
+/// The seconds for which the pose is held; 0 if it is not.
+inline double HeldSeconds(const NamedPose& pose) {
+  return pose.held.empty() ? 0 : pose.held.back().time_s - pose.key.time_s;
+}
+
 /// Reads a pose by its name in the library, or from a source for ReadKeys (key_file.h): a key file
 /// with one pose, KEYS.json@ID, or MOTION@SECOND. `counts`: those of the music, for times in
 /// counts. Throws as FindLibraryPose and ReadKeys do, and Error(kInvalidArgument) for a source with

@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "client/authoring/json_fields.h"
+#include "client/authoring/key_file.h"
 #include "client/authoring/pose_file.h"
 #include "client/authoring/pose_library.h"
 #include "client/authoring/pose_source.h"
@@ -67,6 +68,29 @@ TEST_F(PoseCommandTest, OutputIsAValidKey) {
       ComparePoses(Body(), read.key.pose, authoring::FindLibraryPose("groove").pose).position_m,
       1e-3);
   EXPECT_EQ(authoring::PoseFileText(read, Body()), authoring::ReadText(path, "pose"));
+}
+
+TEST_F(PoseCommandTest, AKeySaysHowLongItIsHeldAndHowHardItIsHit) {
+  ASSERT_EQ(Choreo("pose --from dab --at 2 --hold 0.8 --hit 2.5 --out " + At("a.json")).code, 0);
+  const auto expect_held = [this](const std::string& name) {
+    std::vector<std::string> places;
+    const auto keys = authoring::ReadKeys((folder_ / name).string(), Body(), &places);
+    ASSERT_EQ(keys.size(), 5U);
+    EXPECT_EQ(keys.front().time_s, 2);
+    EXPECT_EQ(keys.front().hit, 2.5);
+    EXPECT_NEAR(keys.back().time_s, 2.8, 1e-9);
+    EXPECT_TRUE(authoring::IsHeld(places.back()));
+  };
+  expect_held("a.json");
+  // A pose made from it keeps both.
+  ASSERT_EQ(Choreo("pose --from " + At("a.json") + " --mirror --at 2 --out " + At("b.json")).code,
+            0);
+  expect_held("b.json");
+  const Outcome jump = Choreo("pose --from star_jump --hold 3 --out " + At("c.json"));
+  EXPECT_EQ(jump.code, 1);
+  EXPECT_THAT(jump.said, HasSubstr("--hold: key"));
+  EXPECT_THAT(Choreo("pose --hold 70 --out " + At("c.json")).said, HasSubstr("--hold: "));
+  EXPECT_THAT(Choreo("pose --hit 2").said, HasSubstr("--hit requires --out"));
 }
 
 TEST_F(PoseCommandTest, PlacesAndTurnsThePose) {
@@ -160,7 +184,7 @@ TEST_F(PoseCommandTest, ErrorsNameTheOptionTheValueAndTheLimit) {
 TEST_F(PoseCommandTest, FootHeightIsMeasuredAtTheSole) {
   PoseRecipe recipe;
   recipe.reach = {"left_foot=0.4,0,0.2"};
-  const Pose pose = MakePose(recipe, Body()).pose;
+  const Pose pose = MakePose(recipe, Body()).key.pose;
   EXPECT_NEAR(DollAboveFloor(Body(), pose), 0, 0.01);
 }
 
@@ -181,7 +205,7 @@ TEST_F(PoseCommandTest, MirrorsTheMaskToo) {
   PoseRecipe recipe;
   recipe.from = (folder_ / "arm.json").string();
   recipe.mirror = true;
-  const client::KeyPose key = MakePose(recipe, Body());
+  const client::KeyPose key = MakePose(recipe, Body()).key;
   EXPECT_TRUE(key.mask.Constrains(Body().right_elbow));
   EXPECT_FALSE(key.mask.Constrains(Body().left_elbow));
   EXPECT_NEAR(key.pose.rotations(1, Body().right_elbow), 1, 1e-12);

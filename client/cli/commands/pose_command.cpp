@@ -5,6 +5,7 @@
 #include <iostream>
 #include <memory>
 
+#include "client/authoring/key_faults.h"
 #include "client/authoring/key_file.h"
 #include "client/authoring/pose_file.h"
 #include "client/authoring/pose_library.h"
@@ -28,6 +29,7 @@ struct PoseOptions {
   PoseRecipe recipe;
   std::string photo;
   double at_s = 0;
+  std::optional<double> hold_s, hit;
   std::string hands;
   std::string description;
   std::vector<std::string> tags;
@@ -121,7 +123,8 @@ void Run(const PoseOptions& options) {
   if (!options.out.empty()) RequireExtension("--out", options.out, ".json");
   RequireOutputs({{"--out", options.out}, {"--png", options.png}}, {});
   if (options.list) return List(options);
-  client::KeyPose key = MakePose(options.recipe, Body());
+  authoring::NamedPose made = MakePose(options.recipe, Body());
+  client::KeyPose& key = made.key;
   for (const std::string& fault : PoseFaults(Body(), key.pose, key.mask))
     std::cerr << "warning: " << fault << '\n';
   if (!options.out.empty()) {
@@ -129,8 +132,11 @@ void Run(const PoseOptions& options) {
     key.time_s = options.at_s;
     key.frame.reset();
     if (!options.hands.empty()) key.hands = FindHandPose(options.hands);
+    if (options.hit) key.hit = options.hit;
+    const double hold_s = options.hold_s.value_or(authoring::HeldSeconds(made));
+    authoring::RefuseHeldInAir(key, hold_s, "--hold", Body());
     WriteFile(options.out,
-              authoring::PoseFileText({key, options.description, options.tags}, Body()));
+              authoring::PoseFileText({key, options.description, options.tags, hold_s}, Body()));
   }
   if (!options.png.empty()) DrawAround(key, options.png);
   if (options.out.empty() && options.png.empty()) PrintAngles(key);
@@ -199,12 +205,20 @@ void AddPoseCommand(CLI::App& program) {
           ""))
       ->check(TimeInSeconds())
       ->capture_default_str();
+  CLI::Option* hold =
+      command
+          ->add_option("--hold", options->hold_s,
+                       "Seconds for which the written key's pose is held.")
+          ->check(NumberFrom(authoring::kMinHoldSeconds, authoring::kMaxHoldSeconds));
+  AddHit(*command, options->hit, "the written key is");
   AddHands(*command, options->hands,
            "Hands in the written key, for characters with fingers (choreo convert)");
   command->add_option("--description", options->description, "Description to write with the pose.");
   AddRepeated(*command, "--tag", options->tags,
               "Tag to write with the pose; with --list, only poses with this tag. Repeatable.");
-  command->add_option("-o,--out", options->out, "Key file to write, FILE.json.");
+  CLI::Option* out = command->add_option("-o,--out", options->out, "Key file to write, FILE.json.");
+  hold->needs(out);
+  command->get_option("--hit")->needs(out);
   command->add_option("--png", options->png, "Picture to write: the pose from three sides.");
   command->add_flag("--list", options->list,
                     "Show the poses of the library instead; as a picture with --png.");

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "client/authoring/photo_pose.h"
-#include "client/authoring/pose_source.h"
 #include "client/cli/options/placing_options.h"
 #include "model/body/doll.h"
 #include "model/core/error.h"
@@ -101,7 +100,7 @@ void MirrorKey(const Skeleton& skeleton, client::KeyPose* key) {
 
 }  // namespace
 
-client::KeyPose MakePose(const PoseRecipe& recipe, const Skeleton& skeleton) {
+authoring::NamedPose MakePose(const PoseRecipe& recipe, const Skeleton& skeleton) {
   authoring::NamedPose begun = Begin(recipe, skeleton);
   client::KeyPose& key = begun.key;
   Set(recipe.set, skeleton, &key);
@@ -113,7 +112,7 @@ client::KeyPose MakePose(const PoseRecipe& recipe, const Skeleton& skeleton) {
     authoring::PlaceRoot(recipe.placing, "--place", &key);
   else
     key.pose = recipe.placing.From(GroundFrame()).ToWorld(key.pose);
-  return key;
+  return begun;
 }
 
 }  // namespace choreo::cli

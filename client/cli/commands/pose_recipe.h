@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "client/authoring/placing.h"
+#include "client/authoring/pose_source.h"
 #include "client/choreo_client.h"
 
 namespace choreo::cli {
@@ -26,10 +27,10 @@ struct PoseRecipe {
   authoring::Placing placing = {};  ///< over the floor; a library pose is around the origin
 };
 
-/// Makes the pose. Its mask is that of `from` plus the joints that were set. Throws
-/// Error(kInvalidArgument) whose field is the option as given, "--set left_elbow=200", naming
-/// joint, value and limit; for a target out of reach it states the remaining distance. Throws as
-/// ReadPose does for `from`.
-client::KeyPose MakePose(const PoseRecipe& recipe, const Skeleton& skeleton);
+/// Makes the pose, held as that of `from` is. Its mask is that of `from` plus the joints that were
+/// set. Throws Error(kInvalidArgument) whose field is the option as given, "--set left_elbow=200",
+/// naming joint, value and limit; for a target out of reach it states the remaining distance.
+/// Throws as ReadPose does for `from`.
+authoring::NamedPose MakePose(const PoseRecipe& recipe, const Skeleton& skeleton);
 
 }  // namespace choreo::cli
