@@ -46,6 +46,29 @@ std::string TimeText(double seconds) {
   return text;
 }
 
+// The number of frames shown at even distances, apart from keys.
+int64_t EvenFrames(int64_t total, const ContactSheetOptions& options) {
+  if (options.step == 0) return std::min<int64_t>(options.frames, total);
+  return 1 + static_cast<int64_t>(static_cast<double>(total - 1) / options.step);
+}
+
+int64_t EvenFrame(int64_t i, int64_t count, int64_t total, double step) {
+  if (step > 0) return std::llround(step * static_cast<double>(i));
+  return count == 1 ? 0 : (i * (total - 1) + (count - 1) / 2) / (count - 1);
+}
+
+// "24 shown, 2.4 a second".
+std::string ShownText(int64_t total, double fps, const ContactSheetOptions& options) {
+  const int64_t count = EvenFrames(total, options);
+  const double step = options.step > 0 ? options.step
+                                       : static_cast<double>(total - 1) /
+                                             static_cast<double>(std::max<int64_t>(count - 1, 1));
+  char text[64];
+  std::snprintf(text, sizeof(text), "%lld shown, %.3g a second", static_cast<long long>(count),
+                step > 0 ? fps / step : fps);
+  return text;
+}
+
 // Facts and a legend, drawn to the right of the title, or below a long one.
 struct Header {
   std::string facts;
@@ -56,10 +79,10 @@ struct Header {
 
   Header(int64_t frames, double fps, const ContactSheetOptions& options) {
     if (!options.rows_apart && options.captions.empty()) {
-      char text[96];
-      std::snprintf(text, sizeof(text), "%s   %lld frames at %g fps",
+      char text[160];
+      std::snprintf(text, sizeof(text), "%s   %lld frames at %g fps   %s",
                     TimeText(static_cast<double>(frames) / fps).c_str(),
-                    static_cast<long long>(frames), fps);
+                    static_cast<long long>(frames), fps, ShownText(frames, fps, options).c_str());
       facts = text;
     }
     legend = {{kLeftColour, "left"}, {kRightColour, "right"}};
@@ -144,11 +167,13 @@ void DrawTile(const Canvas& canvas, const Picture& picture, int x, int y, const 
 
 std::vector<SheetFrame> ChooseSheetFrames(int64_t total, const ContactSheetOptions& options) {
   CheckWithin("options.frames", options.frames, 1, kMaxSheetFrames);
-  const int64_t count = std::min<int64_t>(options.frames, total);
+  if (options.step != 0) CheckWithin("options.step", options.step, 1, kMaxSheetFrames);
+  const int64_t count = EvenFrames(total, options);
+  CheckWithin("options.step: frames shown", static_cast<double>(count), 1, kMaxSheetFrames);
   std::vector<int64_t> places;
   std::map<int64_t, bool> chosen;  // frame -> whether it is a key
   for (int64_t i = 0; i < count; ++i) {
-    places.push_back(count == 1 ? 0 : (i * (total - 1) + (count - 1) / 2) / (count - 1));
+    places.push_back(EvenFrame(i, count, total, options.step));
     chosen.emplace(places.back(), false);
   }
   for (const int64_t key : options.key_frames) {

@@ -17,6 +17,9 @@ struct ContactSheetOptions {
   std::string title;
   /// The number of frames shown, evenly spaced from the first to the last; all if there are fewer.
   int frames = 24;
+  /// If not 0, in place of `frames`: the distance of shown frames in frames of the motion, from 1
+  /// on, from the first.
+  double step = 0;
   int columns = 8;
   int tile_width = 210, tile_height = 250;  ///< pixels, 16 to 4096
   std::optional<CameraSide> side;           ///< as in ViewsOf
@@ -33,7 +36,8 @@ struct ContactSheetOptions {
 };
 
 /// Draws dancers (stage.h) into a PNG as rows of frames, time running from left to right. The
-/// camera moves with the dancers over a fixed floor grid. Throws what CheckStage and ViewsOf throw;
+/// camera moves with the dancers over a fixed floor grid. The heading says how many frames a second
+/// are shown. Throws what CheckStage and ViewsOf throw;
 /// Error(kInvalidArgument) for a key frame outside the motion, a caption count other than the frame
 /// count, or sizes outside their limits; Error(kInternal) if the file cannot be written.
 /// Thread-safe.

@@ -26,4 +26,22 @@ TEST(RenderCommand, APoseThatIsHeldIsOneKeyOfASheet) {
   EXPECT_NE(draw("two.png", R"(, {"id": "b", "frame": 60})"), passed);
 }
 
+TEST(RenderCommand, ARateChoosesTheFramesOfASheet) {
+  const TemporaryFolder folder;
+  const auto at = [&](const char* name) { return "'" + (folder / name).string() + "'"; };
+  const Skeleton& body = Skeleton::Smpl24();
+  WriteMotion(folder / "d.npz", body, {.fps = 30, .frames = std::vector(91, RestPose(body))});
+  const auto draw = [&](const std::string& options) {
+    const Outcome outcome = Choreo("render " + at("d.npz") + options + " --out " + at("a.png"));
+    EXPECT_EQ(outcome.code, 0) << outcome.said;
+    return ReadFile(folder / "a.png");
+  };
+  EXPECT_EQ(draw(" --rate 1"), draw(" --frames 4"));
+  EXPECT_EQ(draw(" --rate 100"), draw(" --frames 91"));
+  const Outcome both =
+      Choreo("render " + at("d.npz") + " --rate 1 --frames 4 --out " + at("a.png"));
+  EXPECT_EQ(both.code, 2);
+  EXPECT_NE(both.said.find("--rate"), std::string::npos) << both.said;
+}
+
 }  // namespace choreo::render_command_test

@@ -48,6 +48,34 @@ TEST(ContactSheet, ChoosesFramesEvenlyAndKeysExactly) {
               [] { ChooseSheetFrames(31, Small({31})); });
 }
 
+TEST(ContactSheet, ChoosesFramesAtARate) {
+  using testing::ElementsAre;
+  ContactSheetOptions options = Small({6});
+  options.step = 2.5;  // 12 a second at 30
+  EXPECT_THAT(Shown(14, options), ElementsAre(0, 3, -6, 8, 10, 13));
+  options.step = 0.5;
+  ExpectError(ErrorCode::kInvalidArgument, "options.step: 0.5, must be 1 to",
+              [&] { ChooseSheetFrames(31, options); });
+  options.step = 1;
+  ExpectError(ErrorCode::kInvalidArgument, "options.step: frames shown: 20000, must be 1 to 10000",
+              [&] { ChooseSheetFrames(20'000, options); });
+}
+
+TEST(ContactSheet, SaysHowManyFramesASecondItShows) {
+  const TemporaryFolder folder;
+  const Motion motion = fixtures::SmoothMotion(kSmpl, 31, 31);
+  const auto header = [&](double step) {
+    ContactSheetOptions options = Small();
+    options.tile_width = 200;
+    options.step = step;
+    DrawContactSheet({{kSmpl, motion}}, options, folder / "sheet.png");
+    const DecodedPng png(folder / "sheet.png");
+    return std::vector(png.pixels.begin(), png.pixels.begin() + png.width * 58);
+  };
+  EXPECT_EQ(header(10), header(0));  // the same four frames
+  EXPECT_NE(header(5), header(10));
+}
+
 TEST(ContactSheet, HasCaptionsInPlaceOfTimes) {
   const TemporaryFolder folder;
   const Motion motion = fixtures::SmoothMotion(kSmpl, 31, 2);

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -27,6 +28,8 @@
 namespace choreo::cli {
 namespace {
 
+constexpr double kMinSheetRate = 0.1, kMaxSheetRate = 240;  // frames a second
+
 std::string SizeText(const VideoFormat& format) {
   return std::to_string(format.width) + "x" + std::to_string(format.height);
 }
@@ -36,6 +39,7 @@ struct RenderOptions {
   std::string out;
   std::string report;
   ContactSheetOptions sheet;
+  std::optional<double> rate;  ///< frames a second of the sheet
   std::string video;
   std::string song;         ///< "none": no song, not even the report's
   std::string from, until;  ///< TIMEs; empty: from the first frame to the last
@@ -137,6 +141,17 @@ void DrawSheet(const RenderOptions& options, const Stage& stage,
     const int64_t frame = std::llround(seconds * stage.front().motion.fps);
     if (frame < CountFrames(stage)) sheet.key_frames.push_back(frame);
   }
+  if (options.rate) {
+    const double fps = stage.front().motion.fps;
+    sheet.step = std::max(1.0, fps / *options.rate);
+    const double shown = static_cast<double>(CountFrames(stage)) / sheet.step;
+    if (shown > kMaxSheetFrames) {
+      throw InvalidArgument("--rate", InFull(*options.rate) + " a second make " +
+                                          std::to_string(std::lround(shown)) +
+                                          " pictures, must be at most " +
+                                          std::to_string(kMaxSheetFrames) + " on a sheet");
+    }
+  }
   if (sheet.title.empty()) {
     sheet.title = Joined(options.motions, [](const std::filesystem::path& motion) {
       return motion.filename().string();
@@ -205,7 +220,8 @@ void AddRenderCommand(CLI::App& program) {
                    MotionFileExtensions() + " file. Several are drawn together.")
       ->required()
       ->check(CLI::ExistingFile);
-  command->add_option("-o,--out", options->out, "Contact sheet to write, a PNG file.");
+  CLI::Option* out =
+      command->add_option("-o,--out", options->out, "Contact sheet to write, a PNG file.");
   command
       ->add_option("--report", options->report,
                    "Report of the dance: marks its key poses, and names the song of the video.")
@@ -217,9 +233,18 @@ void AddRenderCommand(CLI::App& program) {
       ->check(TimeOrCount());
   command->add_option("--until", options->until, "TIME before which the drawing ends.")
       ->check(TimeOrCount());
-  command->add_option("--frames", options->sheet.frames, "Frames to show, evenly spaced.")
-      ->check(WholeNumberFrom(1, kMaxSheetFrames))
-      ->capture_default_str();
+  CLI::Option* frames =
+      command->add_option("--frames", options->sheet.frames, "Frames to show, evenly spaced.")
+          ->check(WholeNumberFrom(1, kMaxSheetFrames))
+          ->capture_default_str();
+  command
+      ->add_option(
+          "--rate", options->rate,
+          "Frames a second to show on the contact sheet, in place of --frames; at most all "
+          "of them.")
+      ->check(NumberFrom(kMinSheetRate, kMaxSheetRate))
+      ->excludes(frames)
+      ->needs(out);
   command
       ->add_option("--camera", options->camera,
                    "Where the camera stands: front, three-quarter (to the left of front), side "
