@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "client/authoring/notes.h"
+#include "model/audio/beats/same_tempo.h"
 #include "model/audio/signal/format.h"
 #include "model/core/error.h"
 #include "model/core/printable.h"
@@ -102,10 +103,19 @@ BeatTrack ReadBeats(const std::string& path, double start) {
   return track;
 }
 
-/// Whether two tempos differ by less than a semitone's ratio.
+/// Removes beats after a frame, the song's end. Returns their number.
+int64_t DropBehind(int64_t end, BeatTrack* track) {
+  const auto first = std::ranges::upper_bound(track->frames, end) - track->frames.begin();
+  const int64_t behind = std::ssize(track->frames) - first;
+  track->frames.resize(static_cast<size_t>(first));
+  track->in_bar.resize(track->frames.size());
+  track->confidence.resize(track->frames.size());
+  return behind;
+}
+
 bool IsNear(double bpm, double other) {
   const double ratio = bpm / other;
-  return std::max(ratio, 1 / ratio) <= 1.06;
+  return std::max(ratio, 1 / ratio) <= 1 + kSameTempo;
 }
 
 /// Whether this tempo, or one that listeners confuse with it, is that of eight beats somewhere.
@@ -172,6 +182,12 @@ void Change(const BeatOptions& options, double start, BeatTrack* track) {
 
 }  // namespace
 
+void NoteBehind(const std::string& source, int64_t count, double end_s) {
+  if (count == 0) return;
+  Note("note: " + source + ": " + std::to_string(count) + (count == 1 ? " beat is" : " beats are") +
+       " left out, behind the end of the song at " + Rounded(end_s) + " s");
+}
+
 void RequireSong(const BeatOptions& options, const std::string& song) {
   BeatOptions others = options;
   if (others.FindsThem()) others.beats.reset();
@@ -191,12 +207,7 @@ BeatTrack BeatsAsAsked(std::span<const Onset> onsets, double start, const BeatOp
                               " s is after the part of the song that is heard, its first " +
                               Rounded(start + end) + " s");
   }
-  // Drops beats after the song's end.
-  while (!track.frames.empty() && track.frames.back() > std::ssize(onsets)) {
-    track.frames.pop_back();
-    track.in_bar.pop_back();
-    track.confidence.pop_back();
-  }
+  const int64_t behind = DropBehind(std::ssize(onsets), &track);
   if (track.frames.empty()) {
     if (!options.FindsThem()) {
       throw InvalidArgument(
@@ -208,6 +219,7 @@ BeatTrack BeatsAsAsked(std::span<const Onset> onsets, double start, const BeatOp
       WarnOfTempo(onsets, *options.hint.tempo_bpm, *options.hint.tempo_bpm, 0);
     return track;
   }
+  if (!options.FindsThem()) NoteBehind(*options.beats, behind, start + end);
   const double found_bpm = TempoOf(track.Seconds());
   Change(options, start, &track);
   track.tempo_bpm = TempoOf(track.Seconds());

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
@@ -26,8 +27,11 @@ struct BeatOptions {
 /// Throws Error(kInvalidArgument) for beat options without a song.
 void RequireSong(const BeatOptions& options, const std::string& song);
 
+/// Notes, by the sink (notes.h), given beats behind a song's end, if any. `source`: their file.
+void NoteBehind(const std::string& source, int64_t count, double end_s);
+
 /// Finds or reads, depending on the options, a song's beats from second `start` on. Warns,
-/// by the sink (notes.h), if the requested tempo is not found in the song. Throws
+/// by the sink, if the requested tempo is not found in the song. Throws
 /// Error(kInvalidArgument) whose field is "beats", "downbeat" or a line of the file. `mono` as in
 /// TrackBeats.
 BeatTrack BeatsAsAsked(std::span<const Onset> onsets, double start, const BeatOptions& options,

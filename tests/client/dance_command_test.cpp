@@ -177,6 +177,17 @@ TEST_F(CommandTest, OptionsOfBeatsWinOverTheProjects) {
   EXPECT_EQ(beats(" --downbeat 2"), 4);
 }
 
+TEST_F(CommandTest, ProjectsBeatsBehindTheSongAreToldOf) {
+  WriteClicks(folder_ / "song.wav", 3);
+  std::ofstream(folder_ / "p.json") << R"({"studio": 1, "song": "song.wav",
+    "beats": [[1, 1], [2, 2], [3, 3], [4, 4], [5, 5]], "keyframes": []})";
+  const Outcome outcome =
+      Choreo("dance --project " + At("p.json") + Server() + "--seconds 2 -o " + At("d.npz"));
+  ASSERT_EQ(outcome.code, 0) << outcome.said;
+  EXPECT_THAT(outcome.said,
+              HasSubstr("p.json:beats: 2 beats are left out, behind the end of the song at 3 s"));
+}
+
 TEST_F(CommandTest, BeginsAtTheRequestedSecondOfTheSong) {
   WriteClicks(folder_ / "song.wav", 6);
   const Outcome outcome =

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <filesystem>
 #include <iostream>
 #include <limits>
@@ -91,6 +92,13 @@ void CheckFiles(const DanceOptions& options, const std::vector<std::filesystem::
   RequireOutputs(outputs, inputs);
 }
 
+void NoteProjectBehind(const DanceOptions& options, const authoring::Music& music) {
+  const double end_s = static_cast<double>(music.mono.size()) / kModelSampleRate;
+  const auto behind = std::ranges::count_if(
+      options.project_beats, [&](double beat) { return beat > end_s + 1 / kOnsetRate; });
+  authoring::NoteBehind(options.project + ":beats", behind, options.song_start_s + end_s);
+}
+
 void Run(const DanceOptions& options) {
   const std::filesystem::path out = OutputPath(options);
   std::optional<authoring::Dancers> stage;
@@ -108,6 +116,7 @@ void Run(const DanceOptions& options) {
     music = authoring::ReadMusic(options.song,
                                  options.seconds.value_or(std::numeric_limits<double>::infinity()),
                                  options.song_start_s, options.beats);
+    NoteProjectBehind(options, *music);
   }
   // Only our own server's default model is known to have SMPL's skeleton.
   if (options.server.addresses.empty() && options.model.empty()) CheckKeyFiles(options, music);

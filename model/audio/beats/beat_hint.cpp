@@ -5,12 +5,13 @@
 #include <cstdlib>
 #include <vector>
 
+#include "model/audio/beats/same_tempo.h"
+
 namespace choreo {
 namespace {
 
-constexpr double kTempoSlack = 1.06;  // either way: a semitone
-
-constexpr double kPauseBeats = 1.6;  // beats; longer gaps are pauses
+constexpr double kTempoSlack = 1 + kSameTempo;  // either way
+constexpr double kPauseBeats = 1.6;             // beats; longer gaps are pauses
 
 /// Whole beats from beat `i` to the next: 1, or more over a pause. The gaps around tell how long a
 /// beat is, as the tempo may have changed.

@@ -11,6 +11,7 @@
 #include "model/audio/beats/harmony.h"
 #include "model/audio/beats/intro.h"
 #include "model/audio/beats/onset_sums.h"
+#include "model/audio/beats/same_tempo.h"
 #include "model/audio/signal/format.h"
 
 namespace choreo {
@@ -25,7 +26,8 @@ constexpr int64_t kMinFrames = kModelSampleRate / kOnsetHop;  // of music betwee
 constexpr size_t kConfidenceBeats = 8;  // on either side
 constexpr double kMinExcess = 0.25;
 constexpr float kAudibleRise_dB = 2;  // of a band; swells of held chords rise by less than one
-constexpr double kSameTempo = 0.06;   // deviation from the median
+// Both ends of an interval are rounded to rows. Above 216 beats a minute this is more than 6 %.
+constexpr double kRounding_s = 1.5 / kOnsetRate;
 
 // If onsets on straight beats are stronger than on swung ones by this factor, the swung beats are
 // offbeats of the straight ones.
@@ -241,10 +243,10 @@ double TempoOf(std::span<const double> seconds) {
   if (steps.empty()) return 0;
   const auto middle = steps.begin() + std::ssize(steps) / 2;
   std::ranges::nth_element(steps, middle);
-  const double median = *middle;
+  const double median = *middle, slack = std::max(kSameTempo * median, kRounding_s);
   double sum = 0, count = 0;
   for (const double step : steps) {
-    if (std::abs(step - median) > kSameTempo * median) continue;
+    if (std::abs(step - median) > slack) continue;
     sum += step;
     ++count;
   }

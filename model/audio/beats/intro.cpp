@@ -6,13 +6,10 @@
 
 #include "model/audio/beats/half_beats.h"
 #include "model/audio/beats/onset_sums.h"
+#include "model/audio/beats/same_tempo.h"
 
 namespace choreo {
 namespace {
-
-constexpr double kNearTempo = 0.06;  // deviation from the drums'
-constexpr double kAsMuch = 0.9;      // of what sounds on the path's own beats
-constexpr size_t kLeading = 8;       // beats of drums that settle the intro's phase
 
 using Path = std::vector<BarPointer::Step>;
 
@@ -24,20 +21,20 @@ double SoundOn(const OnsetSums& sums, std::span<const BarPointer::Step> beats) {
 
 }  // namespace
 
-Path CountIntro(std::span<const Onset> onsets, Path path) {
+Path CountIntro(std::span<const Onset> onsets, Path path, const IntroOptions& options) {
   const std::vector<bool> strong = AreStrong(onsets, path);
   const auto drums = static_cast<size_t>(std::ranges::find(strong, true) - strong.begin());
-  if (drums < 2 || drums + kLeading >= path.size()) return path;
+  if (drums < 2 || drums + options.leading >= path.size()) return path;
   const std::span<const BarPointer::Step> own = std::span(path).first(drums);
-  const double period = path[drums + kLeading / 2].period;
+  const double period = path[drums + options.leading / 2].period;
   const auto is_near = [period](double frames) {
-    return std::abs(frames - period) <= std::max(1.0, kNearTempo * period);
+    return std::abs(frames - period) <= std::max(1.0, kSameTempo * period);
   };
   const auto strays = [&](const BarPointer::Step& beat) { return !is_near(beat.period); };
   if (2 * std::ranges::count_if(own, strays) < std::ssize(own)) return path;
   const double bpm = 60 * kOnsetRate / period;
-  BarPointer pointer(BarPatterns().first(1), {bpm * (1 - kNearTempo), bpm * (1 + kNearTempo)});
-  const int64_t end = path[drums + kLeading].frame;
+  BarPointer pointer(BarPatterns().first(1), {bpm * (1 - kSameTempo), bpm * (1 + kSameTempo)});
+  const int64_t end = path[drums + options.leading].frame;
   for (const Onset& onset : onsets.first(static_cast<size_t>(end))) pointer.Add(onset);
   Path intro = pointer.Path();
   std::erase_if(intro, [&](const BarPointer::Step& beat) {
@@ -45,7 +42,7 @@ Path CountIntro(std::span<const Onset> onsets, Path path) {
   });
   const OnsetSums sums(onsets);
   if (intro.empty() || !is_near(static_cast<double>(path[drums].frame - intro.back().frame)) ||
-      SoundOn(sums, intro) < kAsMuch * SoundOn(sums, own))
+      SoundOn(sums, intro) < options.as_much * SoundOn(sums, own))
     return path;
   const int beats = path[drums].beats;
   for (size_t back = 1; back <= intro.size(); ++back) {

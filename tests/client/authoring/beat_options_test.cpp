@@ -78,6 +78,20 @@ TEST_F(MusicBeats, DoubleTimeAddsOneBetweenTwo) {
   EXPECT_THAT(track.Seconds(), ElementsAre(Near(1), Near(1.5), Near(2), Near(2.5), Near(3)));
 }
 
+// At high tempi one row more or less is much of a beat.
+TEST_F(MusicBeats, TheTempoIsThatOfTheBeatsWithEveryHint) {
+  for (int bpm = 50; bpm <= 400; bpm += 7) {
+    std::string lines;
+    for (double second = 0; second < 10; second += 60.0 / bpm)
+      lines += std::to_string(second) + "\n";
+    for (const BeatHint& hint :
+         {BeatHint(), BeatHint{.half_time = true}, BeatHint{.double_time = true}}) {
+      const double times = hint.half_time ? 0.5 : hint.double_time ? 2 : 1;
+      EXPECT_NEAR(Read(lines, {.hint = hint}).tempo_bpm, times * bpm, 0.008 * times * bpm) << bpm;
+    }
+  }
+}
+
 // A pause, and a hole where a beat is missing.
 TEST_F(MusicBeats, DoubleTimeAddsNoneInPauses) {
   const BeatTrack track =
@@ -228,6 +242,16 @@ TEST_F(MusicBeats, ADownbeatFarFromAnyBeatIsWarnedOf) {
   EXPECT_THAT(said(8), testing::StartsWith("warning: --downbeat 8 is more than a beat away from "
                                            "any beat; the nearest, at 2.5 s, begins a bar"));
   for (const double near : {0.1, 0.6, 1.7, 2.9}) EXPECT_EQ(said(near), "") << near;
+}
+
+TEST_F(MusicBeats, ThoseBehindTheSongsEndAreToldOf) {
+  const std::string lines = "1\n2\n3\n9\n10\n11\n12.5\n";
+  const auto said = Noted([&] { EXPECT_EQ(Read(lines).frames.size(), 5U); });
+  EXPECT_THAT(said, testing::EndsWith(
+                        "beats.txt: 2 beats are left out, behind the end of the song at 10 s"));
+  EXPECT_THAT(Noted([&] { Read(lines, {}, 2); }),
+              testing::EndsWith("1 beat is left out, behind the end of the song at 12 s"));
+  EXPECT_EQ(Noted([&] { Read("1\n2\n10\n"); }), "");
 }
 
 TEST_F(MusicBeats, AutoNeedsNoSong) {
