@@ -7,6 +7,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <sstream>
 
 #include "client/authoring/key_file.h"
 #include "client/authoring/pose_library.h"
@@ -452,10 +453,19 @@ TEST_F(CommandTest, ExplainsItself) {
   EXPECT_EQ(absurd.code, 2);
   EXPECT_THAT(absurd.said, HasSubstr("--fps: 1e9 is not a number from 1 to 1000"));
   for (const char* command : {"", "dance", "transition", "edit", "analyze", "info", "health",
-                              "serve", "convert", "render"}) {
+                              "serve", "convert", "render", "live", "pose", "plot", "studio"}) {
     const Outcome outcome = Choreo(std::string(command) + " --help");
     EXPECT_EQ(outcome.code, 0) << command;
     EXPECT_THAT(outcome.said, HasSubstr("Usage:")) << command;
+    std::istringstream lines(outcome.said);
+    for (std::string line; std::getline(lines, line);) {
+      const size_t excludes = line.find("Excludes: ");
+      if (excludes == std::string::npos) continue;
+      std::istringstream names(line.substr(excludes + std::string("Excludes: ").size()));
+      for (std::string name; names >> name && name.starts_with("-");)
+        EXPECT_THAT(outcome.said, testing::ContainsRegex("\n  (-.,)?" + name + "[ ,\n]"))
+            << command;
+    }
   }
   EXPECT_EQ(Choreo("--version").code, 0);
 }

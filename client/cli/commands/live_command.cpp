@@ -256,8 +256,7 @@ void AddLiveCommand(CLI::App& program) {
                       "Device of raw MIDI, such as /dev/snd/midiC1D0. From its Start on, beats "
                       "come from its clock instead of the music.");
   AddBeatOptions(*command, &options->beats);
-  for (const char* refused : {"--beats", "--downbeat"})
-    command->get_option(refused)->group("");  // with the reason
+  for (const char* refused : {"--beats", "--downbeat"}) Hide(*command, refused);
   command
       ->add_option("--ahead", options->ahead_s,
                    "Least seconds from the request of a pose to its beat.")
@@ -284,7 +283,7 @@ void AddLiveCommand(CLI::App& program) {
                       "JSON file to write the report to, for `choreo edit` and `render`.");
   options->server.AddInexactResume(*command);
   options->server.AddTo(*command);
-  command->get_option("--deadline")->group("");  // is refused, with the reason
+  Hide(*command, "--deadline");
   command->callback([options, command] {
     CheckSongStart(*command, options->song);
     Run(*options);

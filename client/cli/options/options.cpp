@@ -200,6 +200,11 @@ Error AsTyped(const Error& error) {
   return of_setting.empty() ? error : error.Of(of_setting);
 }
 
+void Hide(CLI::App& command, const std::string& name) {
+  CLI::Option* hidden = command.get_option(name)->group("");
+  for (CLI::Option* other : command.get_options()) other->remove_excludes(hidden);
+}
+
 void NoteStyle(const client::ModelDescription& model, const std::string& style) {
   const auto& figures = model.style_figures;
   const bool is_one = std::ranges::find(model.styles, style) != model.styles.end();

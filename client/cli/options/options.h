@@ -68,6 +68,9 @@ CLI::Option* AddSeed(CLI::App& command, std::optional<uint64_t>& seed, const std
 /// Replaces the library's or server's name of a setting in an error with its option.
 Error AsTyped(const Error& error);
 
+/// Hides an option that a command refuses, saying why, from its help and other options' help.
+void Hide(CLI::App& command, const std::string& name);
+
 /// Adds an option that may be repeated. Each occurrence takes one value, so that another argument,
 /// such as a song, may follow.
 template <typename Value>
