@@ -206,6 +206,34 @@ TEST_F(EditTest, KeepsTheNumbersOfADanceOfSeveralTurns) {
   EXPECT_LT((Read("new.npz").frames[76].rotations - spin.frames[75].rotations).norm(), 1);
 }
 
+TEST_F(EditTest, ReportsThatNobodyWroteAreRefusedByTheirOwnNames) {
+  const nlohmann::json report = ReadJson(folder_ / "report.json");
+  const auto refused = [&](const nlohmann::json& changes, const std::string& message) {
+    nlohmann::json edited = report;
+    edited.update(changes);
+    std::ofstream(folder_ / "edited.json") << edited;
+    const Outcome outcome =
+        Edit("--key kick --at 3 --report " + At("edited.json") + " -o " + At("new.npz"));
+    EXPECT_EQ(outcome.code, 1) << message;
+    EXPECT_THAT(outcome.said, HasSubstr("edited.json:" + message));
+  };
+  refused({{"music_beats", {1, 3, 2}}}, "music_beats[2]: 2 s is not after the beat before it, 3 s");
+  refused({{"music_beats", {1, -2}}}, "music_beats[1]: -2 s is not within 0 to 600");
+  refused({{"music_beats", {1, "2"}}}, "music_beats: ");
+  refused({{"music_beats", {1, 2, 3}}, {"music_downbeats", {1, 2.5}}},
+          "music_downbeats[1]: 2.5 s is not one of the beats");
+  refused({{"music_downbeats", {1}}}, "music_downbeats[0]: 1 s is not one of the beats");
+  refused({{"variation", 1.5}}, "variation: 1.5 is not within 0 to 1");
+  refused({{"music_dynamics", -1}}, "music_dynamics: -1 is not within 0 to 1");
+  refused({{"temperature", 3}}, "temperature: 3 is not within 0 to 2");
+  refused({{"song_start", -1}}, "song_start: -1 is not within 0 to 1e+09");
+  refused({{"seed", -1}}, "seed: -1 is not valid in a report");
+  refused({{"seed", 1.5}}, "seed: 1.5 is not valid in a report");
+  nlohmann::json keys = report["keyframes"];
+  keys.push_back({{"id", "twin"}, {"frame", keys[1]["frame"]}});
+  refused({{"keyframes", keys}}, "keyframes[" + std::to_string(keys.size() - 1) + "].frame: ");
+}
+
 TEST_F(EditTest, RefusesImpossibleEdits) {
   std::ofstream(folder_ / "other.json")
       << R"({"fps": 30.0, "keyframes": [{"id": "far", "frame": 900}]})";

@@ -3,7 +3,12 @@
 #include <cmath>
 #include <iostream>
 
+#include "client/authoring/json_fields.h"
 #include "client/cli/report/report_controls.h"
+#include "model/audio/signal/format.h"
+#include "model/core/error.h"
+#include "model/core/limits.h"
+#include "model/core/rounded.h"
 
 namespace choreo::cli {
 namespace {
@@ -41,6 +46,19 @@ bool DanceSettings::FillSong(const std::filesystem::path& report, bool says_star
   }
   if (!says_start) *start_s = song_start_s;
   return takes;
+}
+
+void DanceSettings::Check(const std::string& place) const {
+  const auto check = [&](const char* member, std::optional<double> value, double most) {
+    if (!value || (*value >= 0 && *value <= most)) return;
+    throw InvalidArgument(place + member, InFull(*value) + " is not within 0 to " + InFull(most));
+  };
+  check("temperature", temperature, kMaxTemperature);
+  check("music_dynamics", music_dynamics, 1);
+  check("variation", variation, 1);
+  check("song_start", song_start_s, authoring::kMaxSeconds);
+  CheckBeats(beats, place + "music_beats");
+  CheckDownbeats(downbeats, beats, place + "music_downbeats");
 }
 
 DanceSettings DanceSettings::From(double seconds, double fps) const {

@@ -32,6 +32,10 @@ struct DanceSettings : DanceManner {
   bool FillSong(const std::filesystem::path& report, bool says_start, const std::string& without,
                 std::string* to, double* start_s) const;
 
+  /// Throws Error(kInvalidArgument), whose field is a report's member after `place`, for settings
+  /// that no dance has.
+  void Check(const std::string& place) const;
+
   /// The settings for the part of the dance from this second on. `fps`: the model's.
   DanceSettings From(double seconds, double fps) const;
 };

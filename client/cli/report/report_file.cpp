@@ -7,6 +7,8 @@
 #include <iterator>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <type_traits>
 
 #include "client/authoring/json_fields.h"
 #include "client/authoring/key_file.h"
@@ -62,9 +64,10 @@ struct MemberReader {
   bool operator()(const ordered_json& report, const char* member, Value& value) const {
     if (!report.contains(member) || report[member].is_null()) return false;
     try {
+      if (!IsWhole<Value>(report[member])) throw std::out_of_range(member);
       report[member].get_to(value);
       return true;
-    } catch (const nlohmann::json::exception&) {
+    } catch (const std::exception&) {
       throw InvalidArgument(place + member,
                             authoring::Shown(report[member]) + " is not valid in a report");
     }
@@ -75,6 +78,16 @@ struct MemberReader {
     Value read = {};
     if (!(*this)(report, member, read)) return false;
     value = std::move(read);
+    return true;
+  }
+
+ private:
+  /// Whether an integer can hold the number; the library would round it, or count it down from
+  /// 2^64.
+  template <typename Value>
+  static bool IsWhole([[maybe_unused]] const ordered_json& number) {
+    if constexpr (std::is_same_v<Value, uint64_t>) return number.is_number_unsigned();
+    if constexpr (std::is_same_v<Value, int64_t>) return number.is_number_integer();
     return true;
   }
 };
@@ -204,10 +217,16 @@ ReportFile ReadReport(const std::filesystem::path& path) {
     report.sketch = value[kSketch].get<MotionSketch>();
   }
   VisitMembers(value, report.settings, read);
+  report.settings.Check(read.place);
   report.settings.controls = ReadControls(value, name);
   for (size_t i = 0; i < value["keyframes"].size(); ++i) {
     ReportKey key = ReadKey(value["keyframes"][i], at("keyframes", i));
-    report.keys.insert_or_assign(key.frame, std::move(key));
+    const auto [other, is_new] = report.keys.emplace(key.frame, std::move(key));
+    if (!is_new) {
+      throw InvalidArgument(
+          at("keyframes", i) + ".frame",
+          std::to_string(other->first) + " is that of \"" + other->second.id + "\", too");
+    }
   }
   if (!value.contains("warnings")) return report;
   if (!value["warnings"].is_array()) throw InvalidArgument(name + ":warnings", "is not a list");
