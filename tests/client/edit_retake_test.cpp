@@ -111,6 +111,49 @@ TEST_F(RetakeTest, TheWholeDanceIsDancedAnewAsAsked) {
   EXPECT_THAT(without.said, HasSubstr("--report: is missing"));
 }
 
+TEST_F(RetakeTest, OtherBeatsAloneAreDancedToAnew) {
+  const auto beats = [&](const std::string& report, const char* member = "music_beats") {
+    return ReadJson(folder_ / report).value(member, std::vector<double>());
+  };
+  const Outcome half = Edit("--half-time" + Report("half"));
+  ASSERT_EQ(half.code, 0) << half.said;
+  EXPECT_THAT(half.said, HasSubstr("note: to other beats all frames are danced anew, through the "
+                                   "same keys at the same seconds"));
+  EXPECT_NE(ReadFile(folder_ / "half.npz"), ReadFile(folder_ / "dance.npz"));
+  const std::vector<double> halved = beats("half.json");
+  ASSERT_GE(halved.size(), 8U);
+  EXPECT_NEAR(halved[5] - halved[4], 1, 0.03);
+  const Motion before = Read("dance.npz"), after = Read("half.npz");
+  for (const size_t key : keys_) {
+    EXPECT_LE(ComparePoses(Skeleton::Smpl24(), after.frames[key], before.frames[key]).position_m,
+              0.001);
+  }
+
+  const auto edit = [&](const std::string& options) {
+    const Outcome outcome =
+        Choreo("edit " + At("half.npz") + Server() + options + " --report " + At("half.json") +
+               " -o " + At("new.npz") + " --new-report " + At("new.json"));
+    EXPECT_EQ(outcome.code, 0) << outcome.said;
+    return outcome.said;
+  };
+  EXPECT_THAT(edit("--downbeat " + std::to_string(halved[2])),
+              HasSubstr("note: --downbeat alone renames counts; all frames and keys stay"));
+  EXPECT_EQ(ReadFile(folder_ / "new.npz"), ReadFile(folder_ / "half.npz"));
+  EXPECT_EQ(beats("new.json"), halved);
+  EXPECT_EQ(beats("new.json", "music_downbeats").front(), halved[2]);
+  edit("--double-time");
+  EXPECT_NEAR(beats("new.json")[9] - beats("new.json")[8], 0.5, 0.03) << "of the report's";
+  edit("--beats auto");
+  EXPECT_TRUE(beats("new.json").empty()) << "those found in the song";
+  edit("--tempo 120 --music-dynamics 0.3");
+  EXPECT_GE(beats("new.json").size(), 16U);
+
+  const Outcome missing =
+      Edit("--downbeat 2 --report " + At("report.json") + " -o " + At("new.npz"));
+  EXPECT_EQ(missing.code, 1);
+  EXPECT_THAT(missing.said, HasSubstr("--new-report: is missing: --downbeat alone changes only"));
+}
+
 TEST_F(RetakeTest, AFreeDanceDancedAnewIsTheOneBeforeItsEdits) {
   ASSERT_EQ(Choreo("dance " + At("song.wav") + Server() + "-k none --seed 3 -o " + At("dance.npz") +
                    " --report " + At("report.json"))

@@ -19,16 +19,6 @@ namespace {
 
 constexpr double kMaxStretch = 4;
 
-bool EditsKeys(const EditOptions& options) {
-  return !options.keys.empty() || !options.moves.empty() || !options.removed.empty() ||
-         !options.repeats.empty() || !options.stretches.empty() || !options.mirrored.empty() ||
-         !options.retakes.empty() || !options.end.empty() || options.loop;
-}
-
-bool EditsWhole(const EditOptions& options) {
-  return !options.from.empty() || !options.until.empty() || options.mirror || !options.join.empty();
-}
-
 /// Reports invalid times, and counts without a song, before a server is called or started.
 void CheckTimes(const EditOptions& options) {
   for (const auto& [option, time] : TimesOf(options)) {
@@ -101,8 +91,8 @@ void CheckOptions(const EditOptions& options) {
     throw InvalidArgument(
         "--key",
         "is missing, and so are --move, --remove, --repeat, --stretch, --mirror-phrase, --retake, "
-        "--end, --loop, --from, --until, --mirror and --join, and --seed, --style, --path and "
-        "--velocity, which change the whole dance: nothing to change");
+        "--end, --loop, --from, --until, --mirror and --join, and --seed, --style, --path, "
+        "--velocity and options of beats, which change the whole dance: nothing to change");
   }
   if (EditsKeys(options) && EditsWhole(options)) {
     throw InvalidArgument("--key",
@@ -134,6 +124,9 @@ void CheckOptions(const EditOptions& options) {
   for (const std::string& key : options.keys) inputs.push_back({"--key", authoring::FileOf(key)});
   if (!options.end.empty()) inputs.push_back({"--end", authoring::FileOf(options.end)});
   RequireOutputs({{"--out", options.out}, {"--new-report", options.new_report}}, inputs);
+  if (options.changed == DanceChange::kCounts && !EditsKeys(options) && !EditsWhole(options) &&
+      options.new_report.empty())
+    throw InvalidArgument("--new-report", "is missing: --downbeat alone changes only the report");
   if (options.report.empty() && !options.new_report.empty()) {
     throw InvalidArgument("--new-report", "needs --report, from which it is made");
   }
@@ -190,7 +183,7 @@ void AddEditCommand(CLI::App& program) {
       "its first downbeat, 9c the 1 of the next eight, 9.5c half a beat later. Keys are first "
       "removed, then moved, stretched, repeated, mirrored and set; retakes come last. --seed, "
       "--style, --path, --velocity, --music-dynamics or --variation alone dance all of it again, "
-      "through the same keys. Whole "
+      "through the same keys, as do other beats; --downbeat alone changes no frame. Whole "
       "dances are first cut, then mirrored, then joined.");
   command
       ->add_option("dance", options->dance,

@@ -26,12 +26,19 @@ std::optional<authoring::Music> ReadSong(const EditOptions& options, double end_
   return authoring::ReadMusic(options.song, end_s, options.song_start_s, options.beats);
 }
 
+/// The report's beats and downbeats, or else the music's.
+std::pair<std::vector<double>, std::vector<double>> BeatsOf(
+    const EditOptions& options, const std::optional<authoring::Music>& music) {
+  if (!music) return {};
+  const DanceSettings& settings = options.settings;
+  if (!settings.beats.empty()) return {settings.beats, settings.downbeats};
+  return {music->track.Seconds(), music->track.DownbeatSeconds()};
+}
+
 authoring::Counts CountsOf(const EditOptions& options,
                            const std::optional<authoring::Music>& music) {
-  if (!music) return {};
-  if (!options.settings.beats.empty())
-    return authoring::CountsFrom(options.settings.beats, options.settings.downbeats);
-  return authoring::CountsOf(*music);
+  auto [beats, downbeats] = BeatsOf(options, music);
+  return authoring::CountsFrom(std::move(beats), downbeats);
 }
 
 /// Sets the beats from the report that the options do not replace.
@@ -41,11 +48,12 @@ void FillBeats(bool says_start, EditOptions* options) {
   if (options->beats.beats || hint.tempo_bpm || options->song.empty() || says_start)
     settings.beats.clear();
   if (settings.beats.empty()) return;
-  if (hint.half_time || hint.double_time) {
+  if ((hint.half_time || hint.double_time) && (EditsKeys(*options) || EditsWhole(*options))) {
     throw InvalidArgument(hint.half_time ? "--half-time" : "--double-time",
                           options->report +
-                              " has the dance's beats, perhaps changed like this; choose which "
-                              "beats to change: --beats auto, or --beats FILE");
+                              " has the dance's beats, perhaps changed like this; change them in "
+                              "an edit of their own, or choose which beats to change: --beats "
+                              "auto, or --beats FILE");
   }
   authoring::ChangeBeats(options->beats, options->song_start_s, &settings.beats,
                          &settings.downbeats);
@@ -92,7 +100,25 @@ DanceChange ChangeOf(const EditOptions& options) {
   return options.seed ? DanceChange::kSeed : DanceChange::kNothing;
 }
 
+/// What the options of beats change as well.
+DanceChange WithBeats(const authoring::BeatOptions& beats, DanceChange change) {
+  authoring::BeatOptions times = beats;
+  times.downbeat_s.reset();
+  if (times != authoring::BeatOptions()) return DanceChange::kOther;
+  return beats.downbeat_s ? std::max(change, DanceChange::kCounts) : change;
+}
+
 }  // namespace
+
+bool EditsKeys(const EditOptions& options) {
+  return !options.keys.empty() || !options.moves.empty() || !options.removed.empty() ||
+         !options.repeats.empty() || !options.stretches.empty() || !options.mirrored.empty() ||
+         !options.retakes.empty() || !options.end.empty() || options.loop;
+}
+
+bool EditsWhole(const EditOptions& options) {
+  return !options.from.empty() || !options.until.empty() || options.mirror || !options.join.empty();
+}
 
 void FillFromReport(bool says_start, EditOptions* options) {
   std::vector<std::string> taken;
@@ -118,6 +144,7 @@ void FillFromReport(bool says_start, EditOptions* options) {
     options->seed = settings.seed.value_or(0) + 1;
     std::cerr << "note: retakes use seed " << *options->seed << "; another --seed gives others\n";
   }
+  options->changed = WithBeats(options->beats, options->changed);
   take("seed", settings.seed, options->seed);
   DanceManner::VisitSettings(take, settings, *options);
   ControlRequest::VisitControls(
@@ -170,8 +197,9 @@ std::tuple<client::EditOptions, authoring::Counts> HowToDance(const EditOptions&
   const authoring::Counts counts = CountsOf(options, music);
   if (music) {
     edit.audio = authoring::AudioFor(music->audio, end_s);
-    edit.music_beats = counts.beats;
-    std::erase_if(edit.music_beats, [&](double beat) { return beat >= end_s; });
+    std::tie(edit.music_beats, edit.music_downbeats) = BeatsOf(options, music);
+    for (std::vector<double>* beats : {&edit.music_beats, &edit.music_downbeats})
+      std::erase_if(*beats, [&](double beat) { return beat >= end_s; });
     edit.music_passages = music->passages;
     edit.music_energies = music->energies;
     edit.music_id = music->id;

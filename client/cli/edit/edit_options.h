@@ -19,7 +19,13 @@
 namespace choreo::cli {
 
 /// Which settings of the whole dance the command line changes.
-enum class DanceChange { kNothing, kSeed, kPath, kOther };
+enum class DanceChange {
+  kNothing,
+  kCounts,  ///< which beats begin bars; no frame
+  kSeed,
+  kPath,
+  kOther
+};
 
 /// The options of `choreo edit`.
 struct EditOptions : DanceManner {
@@ -69,6 +75,11 @@ struct EditOptions : DanceManner {
   ReportFile known;        ///< the dance's report, if any (FillFromReport)
   DanceSettings settings;  ///< its request, without the beats that the options replace
 };
+
+/// Whether keys are edited: frames around them, or between two seconds, are danced anew.
+bool EditsKeys(const EditOptions& options);
+/// Whether the dance is cut, mirrored or joined.
+bool EditsWhole(const EditOptions& options);
 
 /// Fills in settings that the command line does not give from the report, and prints notes about
 /// that. `says_start`: whether the command line gives the song's start.

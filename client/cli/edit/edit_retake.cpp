@@ -33,7 +33,27 @@ void EditSession::Retake(double from_s, double until_s) {
   known_.settings.seed = edit_.seed;  // the next take has the next seed
 }
 
+void EditSession::RenameBeats() {
+  if (options_.beats == authoring::BeatOptions()) return;
+  DanceSettings& settings = known_.settings;
+  settings.beats.clear();
+  settings.downbeats.clear();
+  if (options_.beats == authoring::BeatOptions{.beats = "auto"})
+    return;  // as are found in the song
+  settings.beats = edit_.music_beats;
+  settings.downbeats = edit_.music_downbeats;
+}
+
 void EditSession::DanceOtherwise() {
+  RenameBeats();
+  if (options_.changed == DanceChange::kCounts) {
+    std::cerr << "note: --downbeat alone renames counts; all frames and keys stay\n";
+    return;
+  }
+  if (options_.beats != authoring::BeatOptions()) {
+    std::cerr << "note: to other beats all frames are danced anew, through the same keys at the "
+                 "same seconds\n";
+  }
   const auto& path = edit_.controls.root_path;
   const bool begins_later = options_.changed == DanceChange::kPath && path->frames.front() > 0;
   DanceAnew("danced anew", begins_later ? path->frames.front() : -1, frames_);

@@ -58,7 +58,7 @@ class EditSession {
   /// Generates the frames between two seconds again, through the keys there.
   void Retake(double from_s, double until_s);
   /// Generates the whole dance again, through its keys, with the options' settings. If only the
-  /// path changes, starts at the path's beginning.
+  /// path changes, starts at the path's beginning. If only counts change, generates nothing.
   void DanceOtherwise();
   /// Leads the last frames back to the first one. If a held pose ends the dance, adds new frames
   /// for that.
@@ -128,6 +128,8 @@ class EditSession {
   /// Generates the frames between two others again, through the keys there. `from` and `to` as in
   /// client::Gap.
   void DanceAnew(const std::string& what, int64_t from, int64_t to);
+  /// Writes the beats of the options, if any, into the report.
+  void RenameBeats();
   /// Sets a moved or new key at this second, with the keys that hold it, between its neighbours.
   void Set(const char* field, double at_s, client::KeyEdit edit);
   /// Removes keys from the report. Their frames are stale until they are generated again.
