@@ -2,7 +2,8 @@
 // first second and from the tenth, for whole songs (FindBeats) and for predictions, either of a
 // live dance with transitions of 2 s (DanceMusic) or of `choreo live` (BeatEar). Songs have a tempo
 // map (SONG.beats beside SONG.ogg: seconds, one per line), or are synthetic, at every tempo and
-// metre, with known downbeats. An octave error is named and counts half.
+// metre, with known downbeats (files: each fourth beat of the map). An octave error is named and
+// counts half.
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -20,6 +21,7 @@
 #include "client/live/beat_ear.h"
 #include "client/live/live_dance.h"
 #include "client/live/sound.h"
+#include "model/audio/beats/beat_hint.h"
 #include "model/audio/beats/beats.h"
 #include "model/audio/decode/decode.h"
 #include "model/audio/music/made_song.h"
@@ -127,6 +129,9 @@ void PrintHead() {
 struct Scores {
   double octaves_half;       // F of the whole song; half of it for an octave error
   double file, pcm, client;  // F from the first second
+  double pcm_late;           // F from the tenth
+  double downbeats;
+  bool is_octave;
 };
 
 Scores Judge(const Judged& song) {
@@ -159,8 +164,47 @@ Scores Judge(const Judged& song) {
   }
   std::printf("\n");
   std::fflush(stdout);
-  return {f, BeatFMeasure(found, song.beats), BeatFMeasure(live, song.beats),
-          BeatFMeasure(client, song.beats)};
+  return {f,
+          BeatFMeasure(found, song.beats),
+          BeatFMeasure(live, song.beats),
+          BeatFMeasure(client, song.beats),
+          BeatFMeasure(live, song.beats, kLate),
+          down.value_or(0),
+          !octave.empty()};
+}
+
+double MeanOf(const std::vector<Scores>& songs, double Scores::*score) {
+  double sum = 0;
+  for (const Scores& song : songs) sum += song.*score;
+  return sum / static_cast<double>(songs.size());
+}
+
+/// Prints the figures of docs/beats.md that are of many songs.
+void PrintSummary(const std::vector<Scores>& all,
+                  const std::map<int, std::vector<Scores>>& by_tempo) {
+  constexpr double kWanted = 0.95, kFound = 0.9;
+  int steady = 0, reached = 0, octaves = 0;
+  std::vector<Scores> found[3];  // steady songs of slow, medium and fast tempi
+  for (const auto& [bpm, songs] : by_tempo) {
+    for (const Scores& song : songs) {
+      ++steady;
+      reached += song.octaves_half >= kWanted;
+      octaves += song.is_octave;
+      if (song.file > kFound) found[(bpm > 80) + (bpm > 150)].push_back(song);
+    }
+  }
+  std::printf(
+      "\nsteady tempo: %d of %d songs have an F of at least %.2f, %d double or half beats\n",
+      reached, steady, kWanted, octaves);
+  std::printf("all songs: mean F of downbeats %.2f, of PCM from second 10 %.2f\n",
+              MeanOf(all, &Scores::downbeats), MeanOf(all, &Scores::pcm_late));
+  const char* const tempi[] = {"50 to 80", "90 to 150", "160 to 200"};
+  for (size_t i = 0; i < std::size(tempi); ++i) {
+    const double file = MeanOf(found[i], &Scores::file);
+    std::printf("%s bpm, steady songs with F over %.1f: PCM ÷ file %.2f, client ÷ file %.2f\n",
+                tempi[i], kFound, MeanOf(found[i], &Scores::pcm) / file,
+                MeanOf(found[i], &Scores::client) / file);
+  }
 }
 
 /// Prints the accuracy of predictions relative to that of whole songs.
@@ -193,6 +237,9 @@ void JudgeFiles(const std::vector<std::string>& songs, const std::string& libros
     }
     song.mono = ToModelRate(DecodeAudioFile(path));
     song.beats = ReadSeconds(map);
+    // As if the map began with a bar of four.
+    for (size_t i = 0; i < song.beats.size(); i += kDefaultBar)
+      song.downbeats.push_back(song.beats[i]);
     if (golden.contains(song.name))
       song.librosa = BeatFMeasure(golden[song.name].get<std::vector<double>>(), song.beats);
     Judge(song);
@@ -203,6 +250,7 @@ void JudgeFiles(const std::vector<std::string>& songs, const std::string& libros
 void JudgeMade(uint64_t seed) {
   std::map<std::string, std::vector<double>> by_kind;
   std::map<int, std::vector<Scores>> by_tempo;
+  std::vector<Scores> all;
   const auto judge = [&](const std::string& kind, const std::string& name, SongPlan plan,
                          std::vector<SongPlan::Span> spans = {}) {
     plan.seed = seed++;
@@ -214,6 +262,7 @@ void JudgeMade(uint64_t seed) {
                                  .spans = std::move(spans),
                                  .silent = plan.silent});
     by_kind[kind].push_back(scores.octaves_half);
+    all.push_back(scores);
     if (plan.tempo.size() == 1 && plan.without_drums.empty() && plan.silent.empty())
       by_tempo[static_cast<int>(plan.tempo.front().bpm)].push_back(scores);
   };
@@ -247,6 +296,7 @@ void JudgeMade(uint64_t seed) {
                 values.size());
   }
   PrintLiveShare(by_tempo);
+  PrintSummary(all, by_tempo);
 }
 
 }  // namespace
