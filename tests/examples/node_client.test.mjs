@@ -66,6 +66,20 @@ test('a token is sent, read again for each call, and a wrong one refused', () =>
     });
   }));
 
+test('what pages tell of the music is danced to', async () => {
+  for (const name of ['client/node/README.md', 'docs/web.md', 'docs/api.md']) {
+    const page = await readFile(new URL(`../../${name}`, import.meta.url), 'utf8');
+    const [, told] = /(\{ ?"?music_dynamics[^\]]+\][^\]]+\][^\]]+\] ?\})/.exec(page);
+    const heard = Function(`return ${told}`)();
+    const beats = [];
+    await withClient(other, {}, (client) =>
+      collect(client.streamDance([{ config: { frames: 45, ...heard } }]), ({ event }) => event?.beat && beats.push([event.time, event.beat.downbeat])),
+    );
+    assert.deepEqual(beats, heard.music_beats.map((time) => [time, heard.music_downbeats.includes(time)]), name);
+    assert.ok(heard.variation > 0 && heard.music_passages.length > 0, name);
+  }
+});
+
 test('TLS: authority, certificate of the client, name of the server', () =>
   withFolder(async (folder) => {
     const { ca, issue } = authority(folder);

@@ -189,6 +189,14 @@ print(api_implementation.Type())
         alone = "send the music of its frames alone, or a compressed file"
         self.assert_refused(wrong.format("17.0", alone), self.client.generate_transition, transition)
 
+    def test_what_the_page_tells_of_the_music_is_danced_to(self):
+        page = pathlib.Path(__file__).resolve().parents[2] / "client/python/README.md"
+        heard = json.loads(re.search(r'\{"music_dynamics.*\}', page.read_text())[0])
+        beats = [answer.event for answer in self.dance({"config": {"frames": 45, **heard}}) if answer.event.HasField("beat")]
+        told = [(time, time in heard["music_downbeats"]) for time in heard["music_beats"]]
+        self.assertEqual([(event.time, event.beat.downbeat) for event in beats], told)
+        self.assertLessEqual({"variation", "music_passages"}, set(heard))
+
     def test_a_transition_takes_fields(self):
         answers = list(self.client.generate_transition({"config": {"seed": 3}, "frames": 20, "candidates": 2}))
         self.assertEqual(sum(answer.frames.count for answer in answers), 40)
