@@ -2,9 +2,7 @@
 
 #include <algorithm>
 
-#include "client/authoring/beat_options.h"
 #include "client/authoring/dancers.h"
-#include "client/authoring/json_fields.h"
 #include "client/authoring/key_file.h"
 #include "client/authoring/pose_library.h"
 #include "client/convert.h"
@@ -16,7 +14,6 @@
 #include "model/formats/motion_file.h"
 #include "model/motion/joint_angles.h"
 #include "model/motion/kinematics.h"
-#include "model/motion/pose_limits.h"
 #include "model/motion/velocity_factors.h"
 #include "studio/scratch_folder.h"
 
@@ -47,17 +44,13 @@ JointTurn TurnOf(const Skeleton& skeleton, int joint) {
 
 Limits LimitsOf(double song_s) {
   Limits limits;
-  limits.set_dance_s(authoring::kMaxDanceSeconds);
   limits.set_song_s(song_s);
   limits.set_slowest_tempo(kSlowestHint);
   limits.set_fastest_tempo(kFastestHint);
-  limits.set_beats_in_bar(authoring::kMaxBeatsInBar);
-  limits.set_velocity_factor(kMaxVelocityFactor);
   limits.set_hit(kMaxHit);
   limits.set_key_distance(kMinKeyDistance);
   limits.set_hold_step_s(authoring::kHoldStep);
   limits.set_hold_s(authoring::kMaxHoldSeconds);
-  limits.set_position_m(kMaxPosition);
   limits.set_dancers(authoring::kMaxDancers);
   limits.set_stage_m(authoring::kMaxStageRadius);
   limits.set_usual_apart_m(authoring::kUsuallyApart);

@@ -3,12 +3,12 @@
 import type { MessageInitShape } from '@bufbuild/protobuf';
 import { BodyPart } from './generated/choreo/v1/choreography_pb';
 import type { Controls, ControlsSchema } from './generated/choreo/v1/choreography_pb';
+import { parts } from './project';
 import type { Project } from './project';
 
 type Asked = Pick<Project, 'path' | 'velocities'>;
 
-/// In the order of `parts` (project.ts).
-const bodyParts = [BodyPart.TRUNK, BodyPart.LEFT_ARM, BodyPart.RIGHT_ARM, BodyPart.LEFT_LEG, BodyPart.RIGHT_LEG];
+const bodyParts = parts.map((_, i) => BodyPart.TRUNK + i);
 
 /// undefined: the model decides all of them.
 export function controlsMessage({ path, velocities }: Asked): MessageInitShape<typeof ControlsSchema> | undefined {

@@ -1,15 +1,14 @@
 // The hand pose at the selected key, for characters with fingers.
 import { handPoses } from './project';
-import type { Hands, Key } from './project';
+import type { Key } from './project';
 import * as studio from './studio';
 
 export function HandsTool({ item }: { item: Key }) {
   return (
     <label class="row" title="Characters with fingers show it: choreo convert --character --report">
       <span>hands</span>
-      <select aria-label="What hands do" value={item.hands ?? ''} onChange={(event) => studio.handKey(item.id, (event.currentTarget.value || null) as Hands | null)}>
-        <option value="">as before</option>
-        {handPoses.map((pose) => <option key={pose} value={pose}>{pose}</option>)}
+      <select aria-label="What hands do" value={item.hands} onChange={(event) => studio.handKey(item.id, Number(event.currentTarget.value))}>
+        {['as before', ...handPoses].map((pose, i) => <option key={pose} value={i}>{pose}</option>)}
       </select>
     </label>
   );

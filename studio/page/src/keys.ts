@@ -2,6 +2,7 @@
 import { computed, signal } from '@preact/signals';
 import { heading, only, turned } from './body';
 import type { Pose, Triple } from './body';
+import type { HandPose } from './generated/choreo/v1/choreography_pb';
 import type { LibraryPose } from './generated/studio/studio_pb';
 import { onPath } from './floor_path';
 import { following } from './following';
@@ -12,7 +13,7 @@ import { jointsOf, movable, partsOf, withPart, worked } from './masks';
 import { limits } from './limits';
 import { projectMessage, readKey } from './project_file';
 import { emptyProject, freeId, holdOf, isInHold, sorted, displayName, settingsOf } from './project';
-import type { Hands, Key } from './project';
+import type { Key } from './project';
 import { audio } from './songs';
 import { showError, danced, live, message, moment, motion, project, selectedKey, sketch, song, notify, work } from './state';
 import type { Moment } from './state';
@@ -76,7 +77,7 @@ export function addKey(pose: LibraryPose, at?: number) {
     placed = turned(placed, heading(here));
     placed.root = [here.root[0], root.y, here.root[2]];
   }
-  const key = onPath(project.value.path, { id: freeId(keys, pose.id), frame, pose: placed, hasPlace: true, joints: null, hold: old?.hold ?? 0, hit: old?.hit ?? null, hands: old?.hands ?? null });
+  const key = onPath(project.value.path, { id: freeId(keys, pose.id), frame, pose: placed, hasPlace: true, joints: null, hold: old?.hold ?? 0, hit: old?.hit ?? null, hands: old?.hands ?? 0 });
   selectedKey.value = key.id;
   edit({ ...project.value, keys: sorted([...keys, key]) }, [frame]);
   notifyOfHold(keys, key);
@@ -122,8 +123,8 @@ export function hitKey(id: string, hit: number | null) {
   if (key && key.hit !== hit) edit({ ...project.value, keys: project.value.keys.map((other) => (other === key ? { ...key, hit } : other)) }, [key.frame]);
 }
 
-/// Sets a key's hand pose; null: none. No frame depends on it.
-export function handKey(id: string, hands: Hands | null) {
+/// Sets a key's hand pose; 0: none. No frame depends on it.
+export function handKey(id: string, hands: HandPose) {
   const key = keyOf(id);
   if (key && key.hands !== hands) note({ keys: project.value.keys.map((other) => (other === key ? { ...key, hands } : other)) });
 }

@@ -184,7 +184,7 @@ export function addLiveKey(pose: LibraryPose, wanted: number | null) {
   let frame = Math.max(earliest(), wanted ?? Math.round(beatAfter(soon) * dancer.fps));
   while (keys.some((key) => Math.abs(key.frame - frame) < limits.keyDistance)) frame += limits.keyDistance;
   const { x, y, z } = pose.pose!.rootPosition!;
-  const key: Key = { id: freeId(keys, pose.id), frame, pose: { root: [x, y, z], rotations: [...pose.pose!.rotations] }, hasPlace: false, joints: null, hold: 0, hit: null, hands: null };
+  const key: Key = { id: freeId(keys, pose.id), frame, pose: { root: [x, y, z], rotations: [...pose.pose!.rotations] }, hasPlace: false, joints: null, hold: 0, hit: null, hands: 0 };
   send({ request: { case: 'keyframe', value: keyMessage(key) } });
   setKeys([...keys, key]);
 }

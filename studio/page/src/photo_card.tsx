@@ -1,14 +1,15 @@
 // The photo with its landmarks, beside the fitted body.
 import { create } from '@bufbuild/protobuf';
 import { LibraryPoseSchema } from './generated/studio/studio_pb';
+import { parts } from './project';
 import * as studio from './studio';
 import type { Photo } from './state';
 
 /// Pairs of MediaPipe Pose's landmarks between which there is a bone.
 const bones = [[11, 12], [11, 13], [13, 15], [12, 14], [14, 16], [11, 23], [12, 24], [23, 24], [23, 25], [25, 27], [27, 31], [24, 26], [26, 28], [28, 32]];
 const seen = 0.5; // least visibility of drawn landmarks
-/// The landmarks at limbs' ends.
-const limbs = { 'left arm': [13, 15], 'right arm': [14, 16], 'left leg': [25, 27], 'right leg': [26, 28] };
+/// The landmarks at limbs' ends, in the order of the parts after the trunk.
+const ends = [[13, 15], [14, 16], [25, 27], [26, 28]];
 
 function Seen({ photo }: { photo: Photo }) {
   const { width, height, marks } = photo;
@@ -29,7 +30,7 @@ export function PhotoCard() {
   const { value } = studio.sketch;
   if (!value) return null;
   const { id, pose, photo } = value;
-  const hidden = Object.entries(limbs).filter(([, ends]) => ends.some((end) => photo.marks[end].visibility < seen)).map(([limb]) => limb);
+  const hidden = parts.slice(1).filter((_, limb) => ends[limb].some((end) => photo.marks[end].visibility < seen));
   const set = () => {
     const { x, y, z } = { x: pose.root[0], y: pose.root[1], z: pose.root[2] };
     const posed = create(LibraryPoseSchema, { id, pose: { rootPosition: { x, y, z }, rotations: pose.rotations } });

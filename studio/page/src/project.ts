@@ -1,6 +1,9 @@
 // A project: key poses, and how to dance between them.
+import type { DescEnum } from '@bufbuild/protobuf';
 import type { Pose } from './body';
 import type { Beats } from './counts';
+import { BodyPartSchema, HandPoseSchema } from './generated/choreo/v1/choreography_pb';
+import type { HandPose } from './generated/choreo/v1/choreography_pb';
 import { limits } from './limits';
 
 /// A place on the floor; metres.
@@ -8,20 +11,19 @@ export type Spot = { x: number; z: number };
 /// A point of a path at a frame. A path has at least two, in order of time.
 export type Step = Spot & { frame: number };
 
-/// Hand poses, for characters with fingers (the program's kHandPoseNames, its messages' HandPose).
-export const handPoses = ['rest', 'relaxed', 'open', 'fist', 'point'] as const;
-export type Hands = (typeof handPoses)[number];
+/// The names of the API's enumerators from number 1 on: "left arm".
+const namesOf = ({ values }: DescEnum) => values.slice(1).map(({ localName }) => localName.toLowerCase().replaceAll('_', ' '));
+/// In the order of HandPose and of BodyPart.
+export const [handPoses, parts] = [namesOf(HandPoseSchema), namesOf(BodyPartSchema)];
 
 /// A key pose. Without a place it fixes only the pose, wherever the dancer is. `joints`: those
 /// that it fixes, in order; null: all. `hold`: frames for which its pose is held. `hit`: how hard
-/// it is hit, 0 to `limits.hit`; null: it is danced through. `hands`: null: unset; hands move on to
+/// it is hit, 0 to `limits.hit`; null: it is danced through. `hands`: 0: unset; hands move on to
 /// the next key that sets them.
-export type Key = { id: string; frame: number; pose: Pose; hasPlace: boolean; joints: number[] | null; hold: number; hit: number | null; hands: Hands | null };
+export type Key = { id: string; frame: number; pose: Pose; hasPlace: boolean; joints: number[] | null; hold: number; hit: number | null; hands: HandPose };
 
 /// A named moment.
 export type Marker = { frame: number; name: string };
-
-export const parts = ['trunk', 'left arm', 'right arm', 'left leg', 'right leg'];
 
 /// One of several dancers, with the settings that differ from the project's.
 export type Partner = Spot & {

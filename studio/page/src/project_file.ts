@@ -6,7 +6,7 @@ import type { Keyframe, KeyframeSchema } from './generated/choreo/v1/choreograph
 import type { PoseSchema } from './generated/choreo/v1/motion_pb';
 import { controlsMessage, readControls } from './controls';
 import type { Project as Message, ProjectKey, ProjectSchema, StageDancer } from './generated/studio/studio_pb';
-import { emptyProject, handPoses, trimmed } from './project';
+import { emptyProject, trimmed } from './project';
 import type { Key, Partner, Project } from './project';
 
 export const poseMessage = ({ root: [x, y, z], rotations }: Pose, hasPlace = true): MessageInitShape<typeof PoseSchema> =>
@@ -18,7 +18,7 @@ export const keyMessage = (key: Key): MessageInitShape<typeof KeyframeSchema> =>
   pose: poseMessage(key.pose, key.hasPlace),
   mask: key.joints ? { joints: key.joints } : undefined,
   hit: key.hit ?? undefined,
-  hands: key.hands ? handPoses.indexOf(key.hands) + 1 : 0,
+  hands: key.hands,
 });
 
 /// Converts a key from its message. `height`: that of the hips if the key has no place.
@@ -32,7 +32,7 @@ export function readKey({ id, when, pose, mask, hit, hands }: Keyframe, fps: num
     joints: mask ? mask.joints : null,
     hold: 0,
     hit: hit ?? null,
-    hands: hands ? handPoses[hands - 1] : null,
+    hands,
   };
 }
 

@@ -145,7 +145,7 @@ await inStudio(async ({ page, until, settle, frames, give, download }) => {
     assert.deepEqual((await formed()).danceOf, [1, 0]);
     assert.deepEqual(await of(), [['own'], [common, null]]);
     await page.locator('.key').first().click();
-    assert.equal(await page.getByLabel('What hands do').inputValue(), 'fist');
+    assert.equal(await page.getByLabel('What hands do').locator('option:checked').innerText(), 'fist');
     const before = await frames();
     await page.getByLabel('What hands do').selectOption('point');
     await formed();

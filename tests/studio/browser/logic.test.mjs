@@ -9,7 +9,7 @@ import { test } from 'node:test';
 const page = new URL('../../../studio/page/', import.meta.url);
 const { buildSync } = createRequire(new URL('package.json', page))('esbuild');
 
-const limits = { danceS: 3600, songS: 600, beatsInBar: 16, velocityFactor: 10, hit: 3, keyDistance: 2, holdStepS: 0.2, holdS: 60, usualHit: 1, tooNearS: 0.2, positionM: 10000, dancers: 64,
+const limits = { songS: 600, hit: 3, keyDistance: 2, holdStepS: 0.2, holdS: 60, usualHit: 1, tooNearS: 0.2, dancers: 64,
   stageM: 1000, usualApartM: 0.2, usualMusicDynamics: 0.5, usualVariation: 0.3, slowestTempo: 50, fastestTempo: 200, wayFromHoldS: 0.5,
   editAroundS: 2, nextKeyNearS: 4 };
 
@@ -24,7 +24,7 @@ async function load(name, more = '') {
 
 const { reachOf } = await load('edit_reach');
 const { roughly, timeLeft } = await load('time_left');
-const { emptyProject, freeId, freeName, sorted, displayName, trimmed, withMarker } = await load('project');
+const { emptyProject, freeId, handPoses, parts, freeName, sorted, displayName, trimmed, withMarker } = await load('project');
 const { ProjectSchema, create, fromBinary, projectMessage, readProject, toBinary } = await load('project_file',
   "export { ProjectSchema } from './generated/studio/studio_pb'; export { create, fromBinary, toBinary } from '@bufbuild/protobuf';");
 const { counted, countedLive, doubled, eight, halved, isDownbeat, later, nudged, placeAmong, pulseOf, secondOf, tapped, tempo, withOne } = await load('counts');
@@ -81,6 +81,11 @@ test('ids are free, and shown without underscores', () => {
   assert.equal(displayName('side_reach'), 'side reach');
 });
 
+test('parts and hands have the names of the API', () => {
+  assert.deepEqual(parts, ['trunk', 'left arm', 'right arm', 'left leg', 'right leg']);
+  assert.deepEqual(handPoses, ['rest', 'relaxed', 'open', 'fist', 'point']);
+});
+
 test('a pose is held as far as the next key', () => {
   const keys = [{ id: 'bow', frame: 30, hold: 9, hit: 3 }, { id: 'kick', frame: 40, hold: 6, hit: null }, { id: 'dab', frame: 58, hold: 9, hit: 0 }];
   assert.deepEqual(trimmed(keys, 65, 30).map(({ hold }) => hold), [6, 6, 6]);
@@ -119,8 +124,8 @@ test('of a pose some joints are taken', () => {
 });
 
 test('a project is read as it was written', () => {
-  const key = { id: 'bow', frame: 15, pose: still(2), hasPlace: true, joints: [1], hold: 6, hit: 2.5, hands: 'fist' };
-  const free = { id: 'dab', frame: 40, pose: still(2), hasPlace: false, joints: null, hold: 0, hit: null, hands: null };
+  const key = { id: 'bow', frame: 15, pose: still(2), hasPlace: true, joints: [1], hold: 6, hit: 2.5, hands: 4 };
+  const free = { id: 'dab', frame: 40, pose: still(2), hasPlace: false, joints: null, hold: 0, hit: null, hands: 0 };
   const plain = { facing: 0, mirrored: false, after: 0, inCounts: true, seed: null, style: '', keys: null };
   const dancers = [{ id: 'ada', x: 0, z: 0.6, ...plain }, { id: 'ben', x: -1.4, z: -0.4, ...plain, mirrored: true, facing: 90, after: 4, seed: 3 },
     { id: 'cy', x: 1, z: 0, ...plain, after: 2.5, inCounts: false, style: 'happy', keys: [key] }, { id: 'dee', x: 2, z: 0, ...plain, keys: [] }];
