@@ -28,6 +28,8 @@ type FrameDrag = {
   from?: number;
   /// The dragged marker, to which nothing snaps.
   marker?: Marker;
+  /// Whether nothing snaps, even without Alt. Frames before the first are then possible.
+  isFree?: boolean;
   drop: (frame: number) => void;
   /// Called instead of a drop after a press that moves only slightly. Without it every move is a
   /// drag.
@@ -36,14 +38,15 @@ type FrameDrag = {
 
 /// Drags a frame along the timeline, from beat to beat, or freely with Alt. Returns the frame
 /// during the drag, otherwise null, and the function that begins a drag.
-export function useFrameDrag({ from, marker, drop, press }: FrameDrag): [number | null, (event: PointerEvent) => void] {
+export function useFrameDrag({ from, marker, isFree, drop, press }: FrameDrag): [number | null, (event: PointerEvent) => void] {
   const [frame, setFrame] = useState<number | null>(null);
   const begin = (event: PointerEvent) => {
     const offset = from === undefined ? 0 : from / studio.dancer.fps - timeUnder(event.clientX);
     let to: number | null = null;
     drag(event, ({ clientX, altKey }) => {
       if (to === null && press && Math.abs(clientX - event.clientX) < slip) return;
-      setFrame((to = frameAt(timeUnder(clientX) + offset, altKey, marker)));
+      const time = timeUnder(clientX) + offset;
+      setFrame((to = isFree ? Math.round(time * studio.dancer.fps) : frameAt(time, altKey, marker)));
     }, (isDropped) => {
       setFrame(null);
       if (to === null) press?.();

@@ -8,6 +8,7 @@ import type { Pose } from './body';
 import { colour } from './palette';
 import { displayName } from './project';
 import type { Key } from './project';
+import { HitGrip } from './hit_grip';
 import { HoldGrip } from './hold_grip';
 import { MarkerFlags } from './marker_flags';
 import { PhraseBand } from './phrase_band';
@@ -273,6 +274,7 @@ export function Timeline({ pictureOf }: { pictureOf: (pose: Pose) => string }) {
             {shown && !studio.live.value && <Intervals />}
             {shown && !studio.live.value && <Warnings />}
             {shown?.keys.map((key) => <KeyChip key={key.id} item={key} pictureOf={pictureOf} />)}
+            <HitGrip />
             <HoldGrip />
             {dropPose.value !== null && shown && <i class="drop" style={{ left: `${x(dropPose.value / studio.dancer.fps)}px` }} />}
           </div>
