@@ -160,12 +160,6 @@ class Figures {
         "Lateness of sending frames to a client that plays them, beyond the lateness of sampling.",
         MetricType::Histogram);
     out.Add(serving_.tally.sending_lateness_s.snapshot());
-    out.Begin("key_error_metres", "Distance of the model's own frames from their keys.",
-              MetricType::Histogram);
-    out.Add(serving_.tally.key_error_m.snapshot());
-    out.Begin("support_ratio", "Share of a dance's frames in which something supports the body.",
-              MetricType::Histogram);
-    out.Add(serving_.tally.support.snapshot());
   }
 
   // Each name is a permanent series, so their number is limited.
@@ -267,7 +261,7 @@ class Figures {
       out.Add(static_cast<double>(faults[i]), {{"reason", kHandshakeFaults[i]}});
   }
 
-  static void AddHistograms(const std::map<std::string, Models::Figures>& models, Families& out) {
+  void AddHistograms(const std::map<std::string, Models::Figures>& models, Families& out) const {
     using Histograms = SampleQueue::Histograms;
     struct Figure {
       const char* name;
@@ -288,6 +282,15 @@ class Figures {
         out.Add(figures.histograms.*figure.of, {{"model", model}});
       }
     }
+    const auto add = [&](const char* name, const char* help, auto quality) {
+      out.Begin(name, help, MetricType::Histogram);
+      for (const auto& [model, figures] : models)
+        out.Add((serving_.tally.QualityOf(model).*quality).snapshot(), {{"model", model}});
+    };
+    add("steered_metres", "How far the way to a key moves a joint off the model's motion, at most.",
+        &Tally::Quality::steered_m);
+    add("support_ratio", "Share of a dance's frames in which something supports the body.",
+        &Tally::Quality::support);
   }
 
   // Prometheus clients in all languages use these names.

@@ -87,7 +87,7 @@ class DanceSession final : public CallSession<DanceResponse, DanceStream>,
 
   void OnEvent(const DanceEvent& event) override {
     if (const auto* key = std::get_if<KeyReached>(&event))
-      serving_.tally.key_error_m.Add(key->raw_error_m);
+      serving_.tally.QualityOf(queue_->model().name).steered_m.Add(key->correction_m);
     DanceResponse response;
     *response.mutable_event() = wire::ToProto(event, queue_->model().fps);
     outbox().Send(std::move(response));
@@ -102,7 +102,7 @@ class DanceSession final : public CallSession<DanceResponse, DanceStream>,
   }
 
   void OnSummary(const QualityReport& report) override {
-    if (report.support) serving_.tally.support.Add(*report.support);
+    if (report.support) serving_.tally.QualityOf(queue_->model().name).support.Add(*report.support);
     DanceResponse response;
     v1::DanceSummary* summary = response.mutable_summary();
     *summary->mutable_report() = wire::ToProto(report);

@@ -79,6 +79,7 @@ class TransitionSession final : public CallSession<v1::GenerateTransitionRespons
     v1::GenerateTransitionResponse response;
     v1::TransitionSummary* summary = response.mutable_summary();
     int64_t frames = 0;
+    Tally::Quality& of_model = serving_.tally.QualityOf(queue_->model().name);
     for (const CandidateReport& report : ranked) {
       v1::Candidate* candidate = summary->add_candidates();
       candidate->set_candidate(static_cast<uint32_t>(report.candidate));
@@ -87,10 +88,8 @@ class TransitionSession final : public CallSession<v1::GenerateTransitionRespons
           wire::ToProto(report.continuation, queue_->model().skeleton, seed_);
       if (sends_file_) candidate->mutable_continuation()->clear_audio_from_sample();
       frames += report.quality.frames;
-      if (report.quality.support) serving_.tally.support.Add(*report.quality.support);
-      for (const KeyReached& key : report.quality.keys) {
-        serving_.tally.key_error_m.Add(key.raw_error_m);
-      }
+      if (report.quality.support) of_model.support.Add(*report.quality.support);
+      for (const KeyReached& key : report.quality.keys) of_model.steered_m.Add(key.correction_m);
     }
     *summary->mutable_timing() =
         wire::ToProto(TimingOf(static_cast<double>(frames) / queue_->model().fps));

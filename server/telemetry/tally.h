@@ -81,10 +81,19 @@ class Tally {
   std::array<std::atomic<uint64_t>, kConnectionRefusals.size()> refused_connections = {};
   Histogram first_frame_s{Histogram::Seconds()};
   Histogram sending_lateness_s{Histogram::Seconds()};  ///< of dance frames (Player)
-  /// Distance of the model's frames from their keys, metres, before Arrival corrects it.
-  Histogram key_error_m{{0.001, 0.0025, 0.005, 0.01, 0.025, 0.05, 0.1, 0.25, 0.5, 1}};
-  Histogram support{
-      {0.5, 0.6, 0.7, 0.8, 0.85, 0.9, 0.95, 0.99}};  ///< from each dance's QualityReport
+
+  /// How good the dances of one model are.
+  struct Quality {
+    /// KeyReached::correction_m. Unlike raw_error_m, it differs between models.
+    Histogram steered_m{{0.001, 0.0025, 0.005, 0.01, 0.025, 0.05, 0.1, 0.25, 0.5, 1}};
+    Histogram support{
+        {0.5, 0.6, 0.7, 0.8, 0.85, 0.9, 0.95, 0.99}};  ///< from each dance's QualityReport
+  };
+  /// The figures of the model with this name, at first without values. Valid as long as the tally.
+  Quality& QualityOf(const std::string& model) const {
+    const std::lock_guard lock(mutex_);
+    return quality_[model];
+  }
 
  private:
   mutable std::mutex mutex_;
@@ -93,6 +102,7 @@ class Tally {
   Refusals refusals_ = {};                                                 // lock: mutex_
   Sum sum_;                                                                // lock: mutex_
   std::map<std::string, Sum> of_holder_;                                   // lock: mutex_
+  mutable std::map<std::string, Quality> quality_;                         // by model. Lock: mutex_
 };
 
 }  // namespace choreo

@@ -88,8 +88,8 @@ TEST_F(MetricsTest, CountFinishedWork) {
           R"(choreo_call_seconds_bucket{method="StreamDance",status="INVALID_ARGUMENT",le="60"} 1)"));
   EXPECT_EQ(Figure("choreo_sent_frames_total"), 21);
   EXPECT_EQ(Figure("choreo_frames_total" + of_fake), 21);
-  EXPECT_EQ(Figure("choreo_key_error_metres_count"), 1);
-  EXPECT_EQ(Figure("choreo_support_ratio_count"), 1);
+  EXPECT_EQ(Figure("choreo_steered_metres_count" + of_fake), 1);
+  EXPECT_EQ(Figure("choreo_support_ratio_count" + of_fake), 1);
   EXPECT_EQ(Figure("choreo_first_frame_seconds_count"), 1);
   EXPECT_GE(Figure("choreo_sending_lateness_seconds_count"), 1);
   EXPECT_EQ(Figure("choreo_transitions_total" + of_fake), 1);
@@ -101,6 +101,42 @@ TEST_F(MetricsTest, CountFinishedWork) {
   EXPECT_THAT(Metrics(), HasSubstr(R"(choreo_lateness_seconds_bucket{model="fake",le="0.033"} )"))
       << "a frame at 30 a second";
   EXPECT_THAT(Metrics(), HasSubstr(R"(device="fake:0")"));
+}
+
+/// Its own motion misses keys by 20 cm.
+class DriftingSampler final : public FakeSampler {
+ public:
+  DriftingSampler() { model_.name = "drifting"; }
+  void OnFrame(const TransitionSpec& /*spec*/, Plan* plan) override {
+    plan->poses.back().root_position.x() += 0.2;
+  }
+};
+
+TEST_F(MetricsTest, ShowWhichModelDrifts) {
+  Start(1, [](ServerConfig& config) { config.metrics = "0"; });
+  std::vector<Server::Samplers> fresh(1);
+  fresh[0].push_back(std::make_unique<DriftingSampler>());
+  server->SetModels({"fake", "drifting"}, std::move(fresh));
+  const auto steered = [&](const std::string& model) {
+    DanceClient client(stub());
+    v1::DanceConfig config = Config();
+    config.set_model(model);
+    client.Send(config);
+    client.SendKeyframe(Key("a", 20));
+    EXPECT_TRUE(client.Finish().status.ok());
+    EXPECT_EQ(Figure("choreo_support_ratio_count{model=\"" + model + "\"}"), 1);
+    return Figure("choreo_steered_metres_sum{model=\"" + model + "\"}");
+  };
+  const double sound = steered("fake");
+  EXPECT_GT(steered("drifting"), sound + 0.1);
+  EXPECT_EQ(Figure("choreo_steered_metres_sum{model=\"fake\"}"), sound);
+  v1::GenerateTransitionRequest request;
+  *request.mutable_config() = Config();
+  request.set_frames(20);
+  request.set_candidates(3);
+  *request.mutable_target() = KeyPose(0.3, 0.4, 0.8F);
+  EXPECT_TRUE(Generate(request).status.ok());
+  EXPECT_EQ(Figure("choreo_steered_metres_count{model=\"fake\"}"), 4);
 }
 
 TEST_F(MetricsTest, ShowWorkInProgress) {

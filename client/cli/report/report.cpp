@@ -30,7 +30,6 @@ std::string KeysText(const WrittenDance& dance) {
     }
   };
   Worst in_file, near, between;
-  double raw = 0;
   const ReportKey* furthest = nullptr;
   const auto keys =
       std::ranges::count_if(dance.keys, [](const auto& key) { return key.second.holds.empty(); });
@@ -42,8 +41,6 @@ std::string KeysText(const WrittenDance& dance) {
       near.Add(key, position_m, angle_deg);
       between.Add(key, key.final_error_m, key.final_error_deg);
     }
-    // A pose that is already held needs almost no correction.
-    if (key.holds.empty()) raw += key.raw_error_m / static_cast<double>(keys);
     if (!furthest || key.correction_m > furthest->correction_m) furthest = &key;
   }
   std::string text = Format("%zd key pose%s", keys, keys == 1 ? "" : "s");
@@ -58,11 +55,11 @@ std::string KeysText(const WrittenDance& dance) {
         in_file.keys > 0 ? ";" : ":", between.keys, dance.file_fps, between.Text().c_str(),
         dance.header.model_fps, 1000 * near.distance_m);
   }
-  return text + Format(
-                    "\nbefore a key the model's frames are steered towards it: a joint by at most "
-                    "%.1f cm, to \"%s\" at %s; at the keys %.1f cm were left on average\n",
-                    100 * furthest->correction_m, furthest->id.c_str(),
-                    TimeFormat{dance.header.model_fps}.Of(furthest->frame).c_str(), 100 * raw);
+  return text +
+         Format("\non the way to \"%s\" (%s) a joint is pulled %.1f cm off its free motion%s\n",
+                furthest->id.c_str(),
+                TimeFormat{dance.header.model_fps}.Of(furthest->frame).c_str(),
+                100 * furthest->correction_m, keys == 1 ? "" : ", the most of all keys");
 }
 
 /// Counts the slides that the warnings list.
