@@ -12,6 +12,7 @@
 #include "server/serve.h"
 #include "server/server.h"
 #include "server/settings/config.h"
+#include "server/settings/fault_list.h"
 #include "server/telemetry/log.h"
 
 namespace choreo {
@@ -78,7 +79,7 @@ int main(int argc, char** argv) {
     choreo::Run(*command_line.config, [&] { return choreo::RereadConfig(argc, argv); });
     return 0;
   } catch (const std::exception& error) {
-    spdlog::critical("{}", error.what());
+    for (const std::string& fault : choreo::FaultsIn(error.what())) spdlog::critical("{}", fault);
     return choreo::ExitCodeOf(error);
   }
 }

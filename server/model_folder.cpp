@@ -11,6 +11,7 @@
 
 #include "model/core/error.h"
 #include "model/core/printable.h"
+#include "server/settings/fault_list.h"
 #include "tls/pem.h"
 
 namespace choreo {
@@ -80,7 +81,9 @@ Server::Samplers ModelFolder::LoadFile(const std::filesystem::path& file, Files*
 
 std::vector<Server::Samplers> ModelFolder::Load() {
   std::vector<Server::Samplers> models;
-  for (const auto& file : List()) models.push_back(LoadFile(file, &served_));
+  FaultList faults;
+  for (const auto& file : List()) faults.Try([&] { models.push_back(LoadFile(file, &served_)); });
+  faults.Throw();
   return models;
 }
 

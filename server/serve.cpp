@@ -23,6 +23,7 @@
 #include "server/process/service_manager.h"
 #include "server/server.h"
 #include "server/settings/certificate_files.h"
+#include "server/settings/fault_list.h"
 #include "server/settings/tokens.h"
 #include "server/telemetry/log.h"
 
@@ -77,10 +78,12 @@ std::vector<Server::Samplers> LoadAll(const ServerConfig& config, ModelFolder& f
   const LeaveAtOnce leave;
   if (!config.models.empty()) return folder.Load();
   std::vector<Server::Samplers> models;
+  FaultList faults;
   for (const auto& path :
        config.checkpoints.empty() ? ShippedCheckpoints(config.names) : config.checkpoints) {
-    models.push_back(load(path));
+    faults.Try([&] { models.push_back(load(path)); });
   }
+  faults.Throw();
   return models;
 }
 
@@ -92,15 +95,15 @@ void RequireAddresses(const ServerConfig& config) {
 }
 
 // Finds unusable files of secrets before loading models, too.
-void RequireSecrets(const ServerConfig& config) {
-  if (!config.tls_certificate.empty()) {
+void CheckSecrets(const ServerConfig& config, FaultList* faults) {
+  faults->Try([&] {
+    if (config.tls_certificate.empty()) return;
     const CertificateFiles certificate(config);
-    if (config.check) {
-      certificate.LogExpiry();  // as the server itself does
-      certificate.RequireUnexpired();
-    }
-  }
-  const Tokens tokens(config.tokens);
+    if (!config.check) return;
+    certificate.LogExpiry();  // as the server itself does
+    certificate.RequireUnexpired();
+  });
+  faults->Try([&] { const Tokens tokens(config.tokens); });
 }
 
 // Threads that libraries started before main do not inherit main's signal mask: such a thread
@@ -126,8 +129,12 @@ void Serve(const ServerConfig& config, const ModelFolder::Loader& load,
            const SettingsReader& reread) {
   ModelFolder folder(config.models, load);
   if (!config.check) RequireAddresses(config);  // a running server has them in use
-  RequireSecrets(config);
-  std::vector<Server::Samplers> models = LoadAll(config, folder, load);
+  FaultList faults;
+  CheckSecrets(config, &faults);
+  if (!config.check) faults.Throw();
+  std::vector<Server::Samplers> models;
+  faults.Try([&] { models = LoadAll(config, folder, load); });
+  faults.Throw();
   if (config.check) {
     std::cout << "ok" << std::endl;
     return;

@@ -45,22 +45,7 @@ void CheckKernels(const std::string& name) {
   throw InvalidArgument("--kernels", '"' + name + "\" is none of " + Joined(kKernelNames));
 }
 
-void CheckSecurity(const ServerConfig& config) {
-  if (config.tls_certificate.empty() != config.tls_key.empty()) {
-    throw InvalidArgument(config.tls_key.empty() ? "--tls-key" : "--tls-cert",
-                          "missing; a certificate and its key go together");
-  }
-  if (!config.tls_certificate.empty()) {
-    RequireRegularFile("--tls-cert", config.tls_certificate);
-    RequireRegularFile("--tls-key", config.tls_key);
-  }
-  if (!config.tls_client_ca.empty()) {
-    if (config.tls_certificate.empty()) {
-      throw InvalidArgument("--tls-client-ca", "needs --tls-cert: without TLS nobody shows one");
-    }
-    RequireRegularFile("--tls-client-ca", config.tls_client_ca);
-  }
-  if (!config.tokens.empty()) RequireRegularFile("--tokens", config.tokens);
+void RequireTlsBeyondThisMachine(const ServerConfig& config) {
   if (config.tls_certificate.empty() && !config.insecure && !IsLocal(config.listen)) {
     throw InvalidArgument(
         "--listen",
@@ -68,6 +53,26 @@ void CheckSecurity(const ServerConfig& config) {
             "\" can be reached from other machines, and without TLS everybody on the way can read "
             "along: set --tls-cert and --tls-key, or --insecure to allow it");
   }
+}
+
+void CheckSecurity(const ServerConfig& config, FaultList* faults) {
+  const auto require = [faults](const char* flag, const std::filesystem::path& file) {
+    if (!file.empty()) faults->Try([&] { RequireRegularFile(flag, file); });
+  };
+  if (config.tls_certificate.empty() == config.tls_key.empty()) {
+    require("--tls-cert", config.tls_certificate);
+    require("--tls-key", config.tls_key);
+  } else {
+    faults->Add(InvalidArgument(config.tls_key.empty() ? "--tls-key" : "--tls-cert",
+                                "missing; a certificate and its key go together"));
+  }
+  if (!config.tls_client_ca.empty() && config.tls_certificate.empty()) {
+    faults->Add(
+        InvalidArgument("--tls-client-ca", "needs --tls-cert: without TLS nobody shows one"));
+  } else {
+    require("--tls-client-ca", config.tls_client_ca);
+  }
+  require("--tokens", config.tokens);
 }
 
 // An empty file name in a script is usually an unset variable. Without this check the server would
@@ -107,9 +112,9 @@ std::string MeantBy(const std::string& name, const std::vector<std::string>& kno
   return "";
 }
 
-// Throws for a misspelt variable, because its setting would silently be ignored. Returns other
-// unknown variables.
-std::vector<std::string> CheckVariables(const CLI::App& app) {
+// Finds misspelt variables, because their settings would silently be ignored. Returns other unknown
+// variables.
+std::vector<std::string> CheckVariables(const CLI::App& app, FaultList* faults) {
   const std::string prefix = "CHOREO_";
   std::vector<std::string> known, unknown;
   for (const CLI::Option* option : app.get_options()) {
@@ -127,11 +132,12 @@ std::vector<std::string> CheckVariables(const CLI::App& app) {
         std::ranges::find(kOfClients, name) != kOfClients.end())
       continue;
     const std::string meant = MeantBy(name, known);
-    if (!meant.empty()) {
-      throw InvalidArgument(variable,
-                            "no setting has this variable; did you mean " + prefix + meant + "?");
+    if (meant.empty()) {
+      unknown.push_back(variable);
+    } else {
+      faults->Add(InvalidArgument(
+          variable, "no setting has this variable; did you mean " + prefix + meant + "?"));
     }
-    unknown.push_back(variable);
   }
   return unknown;
 }
@@ -177,12 +183,17 @@ class Reading {
   }
 
   /// Fills `config`, and `unknown` with variables that look like ours. Throws
-  /// Error(kInvalidArgument) for a bad setting, and CLI::Success for --help and --version.
+  /// Error(kInvalidArgument), with a line for each bad setting, and CLI::Success for --help and
+  /// --version.
   void Read() try {
     app_.parse(argc_, argv_);
-    unknown = CheckVariables(app_);
-    RequireNoEmptyFile(app_);
-    config.Validate();
+    FaultList faults;
+    unknown = CheckVariables(app_, &faults);
+    faults.Try([&] {
+      RequireNoEmptyFile(app_);
+      config.Validate();
+    });
+    faults.Throw();
     config.given = GivenIn(app_);
     config.overridden = file_->overridden();
   } catch (const CLI::Success&) {
@@ -200,7 +211,9 @@ class Reading {
 
  private:
   Error Placed(const std::string& what) const {
-    return {ErrorCode::kInvalidArgument, "", PlaceInFile(what, *file_, argc_, argv_) + what};
+    std::vector<std::string> faults = FaultsIn(what);
+    for (std::string& fault : faults) fault.insert(0, PlaceInFile(fault, *file_, argc_, argv_));
+    return {ErrorCode::kInvalidArgument, "", Joined(faults, std::identity(), "\n")};
   }
 
   const int argc_;
@@ -219,33 +232,42 @@ std::string ServerConfig::MetricsAddress() const {
 }
 
 void ServerConfig::Validate() const {
-  CheckAddress("--listen", listen);
-  if (!metrics.empty()) CheckAddress("--metrics", MetricsAddress());
-  for (const auto& path : checkpoints) RequireRegularFile("--checkpoint", path);
+  FaultList faults;
+  faults.Try([&] {
+    CheckAddress("--listen", listen);
+    RequireTlsBeyondThisMachine(*this);
+  });
+  if (!metrics.empty()) faults.Try([&] { CheckAddress("--metrics", MetricsAddress()); });
+  for (const auto& path : checkpoints)
+    faults.Try([&] { RequireRegularFile("--checkpoint", path); });
   if (!models.empty() && !checkpoints.empty()) {
-    throw InvalidArgument("--models", models.string() +
-                                          " and --checkpoint exclude each other; put the "
-                                          "checkpoint into the folder");
+    faults.Add(InvalidArgument("--models", models.string() +
+                                               " and --checkpoint exclude each other; put the "
+                                               "checkpoint into the folder"));
   }
   if (!names.empty() && (!models.empty() || !checkpoints.empty()))
-    throw InvalidArgument(
+    faults.Add(InvalidArgument(
         "--model",
-        '"' + names.front() + "\" is a shipped model; it excludes --checkpoint and --models");
-  ParseEngineKind(engine, "--engine");
-  CheckKernels(kernels);
+        '"' + names.front() + "\" is a shipped model; it excludes --checkpoint and --models"));
+  faults.Try([&] { ParseEngineKind(engine, "--engine"); });
+  faults.Try([&] { CheckKernels(kernels); });
   // Devices are checked for existence when they are used; `auto` uses whatever exists.
-  if (device != "auto")
-    ParseDevices(device, {.cuda_build = true, .cuda_devices = std::numeric_limits<int>::max()});
-  CheckNumbers(*this);
-  CheckSecurity(*this);
+  if (device != "auto") {
+    faults.Try([&] {
+      ParseDevices(device, {.cuda_build = true, .cuda_devices = std::numeric_limits<int>::max()});
+    });
+  }
+  CheckNumbers(*this, &faults);
+  CheckSecurity(*this, &faults);
   if (log_format != "text" && log_format != "json") {
-    throw InvalidArgument("--log-format", '"' + log_format + "\" is none of text, json");
+    faults.Add(InvalidArgument("--log-format", '"' + log_format + "\" is none of text, json"));
   }
   if (std::find(kLogLevels.begin(), kLogLevels.end(), log_level) == kLogLevels.end()) {
-    throw InvalidArgument("--log-level", '"' + log_level +
-                                             "\" is none of trace, debug, info, warning, error, "
-                                             "critical, off");
+    faults.Add(InvalidArgument("--log-level", '"' + log_level +
+                                                  "\" is none of trace, debug, info, warning, "
+                                                  "error, critical, off"));
   }
+  faults.Throw();
 }
 
 CommandLine ParseCommandLine(int argc, const char* const* argv) {
@@ -260,7 +282,7 @@ CommandLine ParseCommandLine(int argc, const char* const* argv) {
     reading.Answer(asked);
     return {.config = std::nullopt, .exit_code = 0};
   } catch (const Error& error) {
-    say("critical", error.what());
+    for (const std::string& fault : FaultsIn(error.what())) say("critical", fault);
     return {.config = std::nullopt, .exit_code = kMisused};
   }
   for (const std::string& variable : reading.unknown)
@@ -270,7 +292,11 @@ CommandLine ParseCommandLine(int argc, const char* const* argv) {
 
 ServerConfig RereadConfig(int argc, const char* const* argv) {
   Reading reading(argc, argv);
-  reading.Read();
+  try {
+    reading.Read();
+  } catch (const Error& error) {
+    throw Error(error.code(), "", Joined(FaultsIn(error.what()), std::identity(), "; "));
+  }
   return std::move(reading.config);
 }
 

@@ -100,17 +100,18 @@ std::string Unknown(const CLI::App& app, const std::string& where, const std::st
 
 }  // namespace
 
-void CheckNumbers(const ServerConfig& config) {
+void CheckNumbers(const ServerConfig& config, FaultList* faults) {
   for (const NumberSetting& setting : kNumbers) {
     const double value = setting.of(config);
     if (value >= setting.least && value <= setting.most) continue;
-    throw InvalidArgument(setting.flag, to_string(value) + " is not in " + RangeOf(setting));
+    faults->Add(InvalidArgument(setting.flag, to_string(value) + " is not in " + RangeOf(setting)));
   }
   // Above this bound the setting would limit nothing.
   if (config.max_streams > 0 && config.max_streams_of_peer > config.max_streams) {
-    throw InvalidArgument("--max-streams-of-peer",
-                          std::to_string(config.max_streams_of_peer) + " is not in [0, " +
-                              std::to_string(config.max_streams) + "], which --max-streams allows");
+    faults->Add(InvalidArgument("--max-streams-of-peer",
+                                std::to_string(config.max_streams_of_peer) + " is not in [0, " +
+                                    std::to_string(config.max_streams) +
+                                    "], which --max-streams allows"));
   }
 }
 

@@ -5,11 +5,12 @@
 
 #include "server/settings/config.h"
 #include "server/settings/config_file.h"
+#include "server/settings/fault_list.h"
 
 namespace choreo {
 
-/// Throws Error(kInvalidArgument) for the first number outside its range.
-void CheckNumbers(const ServerConfig& config);
+/// Finds numbers outside their ranges.
+void CheckNumbers(const ServerConfig& config, FaultList* faults);
 
 /// Rewrites a CLI11 error about a command line or a file in the form of our own errors: the
 /// setting, its value, and what is allowed.

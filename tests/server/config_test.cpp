@@ -1,8 +1,9 @@
 #include "server/settings/config.h"
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cctype>
 #include <cstdlib>
 #include <fstream>
@@ -213,6 +214,23 @@ TEST(ServerConfigTest, ErrorsAreJsonWhereTheLogIs) {
     ASSERT_TRUE(object.is_object()) << line;
     EXPECT_EQ(object.at("level"), "critical");
   }
+}
+
+// So `choreod --check` names all that is to mend at once.
+TEST(ServerConfigTest, NamesEachOfSeveralFaults) {
+  const std::string path = testing::TempDir() + "choreod_config_faults_test.toml";
+  std::ofstream(path) << "max-load = 7\ntokens = \"/nonexistent\"\n";
+  ::setenv("CHOREO_TOKEN", "x", 1);
+  testing::internal::CaptureStderr();
+  EXPECT_EQ(Parse({"--config", path.c_str(), "--workers", "-1", "--kernels", "avx9"}).exit_code, 2);
+  ::unsetenv("CHOREO_TOKEN");
+  const std::string said = testing::internal::GetCapturedStderr();
+  for (const std::string& fault :
+       {std::string("CHOREO_TOKEN: no setting has this variable"),
+        path + ":1: --max-load: 7 is not", path + ":2: --tokens: no file /nonexistent",
+        std::string("--workers: -1 is not in"), std::string("--kernels: \"avx9\" is none of")})
+    EXPECT_THAT(said, testing::HasSubstr("choreod: " + fault));
+  EXPECT_EQ(std::ranges::count(said, '\n'), 5) << said;
 }
 
 // A server that should require tokens does not start without them.

@@ -228,6 +228,9 @@ TEST_F(ServeTest, AFileIsCheckedBeforeARestart) {
   EXPECT_TRUE(good.said.ends_with("ok\n")) << good.said;
   std::ofstream(tokens) << "no hash";
   std::filesystem::remove(models + "/a.safetensors");
+  const Outcome both = check();
+  EXPECT_EQ(both.code, 2) << both.said;
+  EXPECT_THAT(both.said, AllOf(HasSubstr(tokens + " line 1"), HasSubstr("--models: " + models)));
   for (const auto& [more, fault] : {std::pair<std::string, std::string>{"", tokens + " line 1"},
                                     {" --tokens ''", "--tokens: is empty"},
                                     {" --workers -1", "--workers: -1 is not in"}}) {
