@@ -236,7 +236,9 @@ std::optional<std::chrono::duration<double>> Patience::Next(
     std::chrono::steady_clock::time_point now) {
   const RetryAdvice advice = AdviceFor(failed);
   if (failures_ == 0) failing_since_ = now;
-  if (!advice.here || verdict_.ok() || AdviceFor(verdict_).here) {
+  // A lone server that was stopping has stopped.
+  const bool stopped = servers_ == 1 && IsAway(failed) && AdviceFor(verdict_).leaving;
+  if (!stopped && (!advice.here || verdict_.ok() || AdviceFor(verdict_).here)) {
     verdict_ = failed;
     verdict_of_ = address;
   }

@@ -115,6 +115,22 @@ TEST(PatienceTest, NamesAllAddressesThatWereTried) {
   EXPECT_STREQ(ToError(patience.Verdict(), patience.VerdictOf(), {}).what(), "the device is gone");
 }
 
+TEST(PatienceTest, SaysThatALoneServerStopped) {
+  const grpc::Status away(
+      grpc::StatusCode::UNAVAILABLE,
+      "failed to connect to all addresses; last error: UNKNOWN: ipv4:127.0.0.1:1: Failed to "
+      "connect to remote host: Connection refused");
+  Patience patience({.addresses = {"a:1"}, .retry_s = 1e6});
+  ASSERT_TRUE(patience.Next(Draining(), "a:1", false));
+  ASSERT_TRUE(patience.Next(away, "a:1", false));
+  EXPECT_STREQ(ToError(patience.Verdict(), patience.VerdictOf(), {}).what(),
+               "a:1: the server is draining");
+  patience.Reset();
+  ASSERT_TRUE(patience.Next(away, "a:1", false));
+  EXPECT_STREQ(ToError(patience.Verdict(), patience.VerdictOf(), {}).what(),
+               "a:1: no server can be reached: connection refused");
+}
+
 TEST(PatienceTest, RetriesAReplicaThatWasAway) {
   Patience patience({.addresses = {"a:1", "b:1"}, .retry_s = 1e6, .first_backoff_s = 1e-6});
   for (int i = 0; i < 20; ++i) {

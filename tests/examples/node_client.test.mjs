@@ -8,6 +8,7 @@ import { join } from 'node:path';
 import { test } from 'node:test';
 import { setTimeout as sleep } from 'node:timers/promises';
 import { ChoreoClient, pose } from '../../client/node/src/index.js';
+import { noAnswer } from '../../client/node/src/connect_faults.js';
 import { Journal } from '../../client/node/src/journal.js';
 import { Patience } from '../../client/node/src/replicas.js';
 import { clicks, live, pcm } from '../../examples/node/music.js';
@@ -413,6 +414,10 @@ test('a server that drains says so, and is left at once', () =>
         const patience = new Patience({ retry: 60, firstBackoff: 2 }, undefined, 2);
         assert.equal(patience.next(error, true, one.address), 0);
         assert.ok(patience.next(error, true, two.address) > 0, 'both drain');
+        const alone = new Patience({ retry: 60, firstBackoff: 2 }, undefined, 1);
+        alone.next(error, false, one.address);
+        alone.next(noAnswer('connect ECONNREFUSED 127.0.0.1:1'), false, one.address);
+        assert.equal(alone.verdict, error, 'why it is gone');
         await withClient([one.address, two.address], {}, async (client) => {
           const answers = await collect(client.streamDance([{ config: { frames: 30 } }]));
           assert.ok(answers.at(-1).summary);

@@ -358,6 +358,12 @@ class ClientTest(unittest.TestCase):
             passed = self.assert_refused("UNAVAILABLE", f"^{server.address}: the server takes no calls: it drains, or ", info, server.address)
             patience.reset()
             self.assertEqual(patience.next(passed, True, "a:1"), 0)
+            alone = Patience(Options(), Cancellation(), 1)
+            alone.next(error, False, "a:1")
+            gone = ChoreoError("UNAVAILABLE", "no server can be reached: connection refused")
+            gone.is_away = True
+            alone.next(gone, False, "a:1")
+            self.assertIs(alone.verdict, error, "why it is gone")
             stop.set()
 
     def test_a_full_server_that_asks_to_wait_longer_than_a_call_tries_is_asked_once(self):

@@ -156,7 +156,9 @@ export class Patience {
     const advice = adviceFor(failed);
     const now = Date.now();
     if (this.#failures === 0) this.#since = now;
-    if (!advice.here || !this.verdict || adviceFor(this.verdict).here) [this.verdict, this.verdictOf] = [failed, address];
+    // A lone server that was stopping has stopped.
+    const stopped = this.#servers === 1 && failed.isAway && this.verdict?.reason === 'DRAINING';
+    if (!stopped && (!advice.here || !this.verdict || adviceFor(this.verdict).here)) [this.verdict, this.verdictOf] = [failed, address];
     // Counts refusals until all servers have refused.
     this.#refusals = advice.here ? 0 : this.#refusals + 1;
     const useful = advice.here || (advice.elsewhere && this.#refusals < this.#servers);

@@ -168,7 +168,9 @@ class Patience:
         now = time.monotonic()
         if self._failures == 0:
             self._since = now
-        if not advice.here or self.verdict is None or advice_for(self.verdict).here:
+        # A lone server that was stopping has stopped.
+        stopped = self._servers == 1 and failed.is_away and self.verdict is not None and self.verdict.is_leaving
+        if not stopped and (not advice.here or self.verdict is None or advice_for(self.verdict).here):
             self.verdict, self.verdict_of = failed, address
         # Counts refusals until all servers have refused.
         self._refusals = 0 if advice.here else self._refusals + 1
