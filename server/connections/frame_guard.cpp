@@ -17,6 +17,7 @@
 
 #include "server/connections/caller.h"
 #include "server/connections/frame_meter.h"
+#include "server/connections/handshakes.h"
 
 namespace choreo {
 namespace {
@@ -30,6 +31,9 @@ struct Guarded {
   bool encrypted = false;
   std::shared_ptr<HeldOff> held_off;
   FrameMeter meter = {};
+  /// Of an encrypted connection.
+  enum class Handshake { kNotBegun, kBegun, kOver };
+  std::atomic<Handshake> handshake = Handshake::kNotBegun;
 };
 
 struct Guardeds {
@@ -114,6 +118,17 @@ FrameMeter& MeterOf(SSL* ssl) {
   return *meter;
 }
 
+void NoteHandshakeOver() {
+  const auto connection = last_read.lock();
+  if (connection) connection->handshake = Guarded::Handshake::kOver;
+}
+
+// Counts a client that has ended its connection in the handshake.
+void NoteEnd(Guarded& connection) {
+  if (connection.handshake.exchange(Guarded::Handshake::kOver) == Guarded::Handshake::kBegun)
+    CountClientLeft();
+}
+
 template <class Function>
 Function* Next(const char* name) {
   return reinterpret_cast<Function*>(dlsym(RTLD_NEXT, name));
@@ -122,10 +137,8 @@ Function* Next(const char* name) {
 }  // namespace
 
 void GuardFrames(int connection, bool encrypted, std::shared_ptr<HeldOff> held_off) {
-  auto guarded = std::make_shared<Guarded>(Guarded{.cookie = CookieOf(connection),
-                                                   .peer = PeerOf(connection),
-                                                   .encrypted = encrypted,
-                                                   .held_off = std::move(held_off)});
+  auto guarded = std::make_shared<Guarded>(CookieOf(connection), PeerOf(connection), encrypted,
+                                           std::move(held_off));
   Guardeds& all = All();
   const std::lock_guard lock(all.mutex);
   all.by_descriptor[connection] = std::move(guarded);
@@ -143,15 +156,32 @@ extern "C" {
 __attribute__((visibility("default"))) ssize_t recvmsg(int descriptor, msghdr* message, int flags) {
   static auto* const next = choreo::Next<decltype(recvmsg)>("recvmsg");
   const ssize_t count = next(descriptor, message, flags);
-  if (count <= 0 || flags != 0) return count;
+  const int fault = errno;
+  const bool ends = count == 0 || (count < 0 && fault == ECONNRESET);
+  if ((count < 0 && !ends) || flags != 0) return count;
   const auto connection = choreo::Find(descriptor);
+  errno = fault;
   if (!connection) return count;
-  choreo::last_read = connection;
-  if (connection->encrypted ||
-      choreo::TakeMessage(*connection, *message, static_cast<size_t>(count)))
+  if (ends) {
+    choreo::NoteEnd(*connection);
     return count;
+  }
+  choreo::last_read = connection;
+  if (connection->encrypted) {
+    auto not_begun = choreo::Guarded::Handshake::kNotBegun;
+    connection->handshake.compare_exchange_strong(not_begun, choreo::Guarded::Handshake::kBegun);
+    return count;
+  }
+  if (choreo::TakeMessage(*connection, *message, static_cast<size_t>(count))) return count;
   errno = ECONNRESET;
   return -1;
+}
+
+__attribute__((visibility("default"))) int SSL_do_handshake(SSL* ssl) {
+  static auto* const next = choreo::Next<decltype(SSL_do_handshake)>("SSL_do_handshake");
+  const int result = next(ssl);
+  if (result == 1 && SSL_is_server(ssl) != 0) choreo::NoteHandshakeOver();
+  return result;
 }
 
 __attribute__((visibility("default"))) int SSL_read(SSL* ssl, void* bytes, int size) {

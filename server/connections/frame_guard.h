@@ -10,7 +10,7 @@ namespace choreo {
 /// Ends connections that flood gRPC with frames (FrameMeter). gRPC 1.51 stores headers without a
 /// limit and rereads all of them with each frame. None of its settings limits this, and it reports
 /// nothing. gRPC reads all bytes with recvmsg and SSL_read, so frame_guard.cpp replaces both and
-/// makes them fail.
+/// makes them fail. It also counts clients that leave in the TLS handshake (CountClientLeft).
 
 /// Watches a new connection. Call it before gRPC reads from the connection. Adds the address of a
 /// flooding connection to `held_off`, which may be null. Thread-safe.

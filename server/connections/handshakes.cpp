@@ -44,6 +44,12 @@ void CountHandshakeFault(std::string_view line) {
   ++fault_counts[reason == std::end(kReasons) ? fault_counts.size() - 1 : reason->second];
 }
 
+void CountClientLeft() {
+  constexpr size_t kClientLeft = kHandshakeFaults.size() - 2;
+  static_assert(std::string_view(kHandshakeFaults[kClientLeft]) == "client_left");
+  ++fault_counts[kClientLeft];
+}
+
 HandshakeFaults CountedHandshakeFaults() {
   HandshakeFaults faults{};
   std::ranges::copy(fault_counts, faults.begin());

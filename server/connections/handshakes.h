@@ -19,6 +19,7 @@ inline constexpr std::array kHandshakeFaults = {
     "not_tls",
     "old_version",
     "timed_out",
+    "client_left",
     "other",
 };
 using HandshakeFaults = std::array<uint64_t, kHandshakeFaults.size()>;
@@ -26,6 +27,9 @@ using HandshakeFaults = std::array<uint64_t, kHandshakeFaults.size()>;
 /// Counts a failed handshake if this line of gRPC's log reports one. gRPC 1.51 reports them nowhere
 /// else. Thread-safe.
 void CountHandshakeFault(std::string_view line);
+/// Counts a handshake that its client ended without a word, as gRPC's clients do when they distrust
+/// the server's certificate. gRPC 1.51 does not report it. Thread-safe.
+void CountClientLeft();
 /// The number of failed handshakes in this process, by reason. Thread-safe.
 HandshakeFaults CountedHandshakeFaults();
 
