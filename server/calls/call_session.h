@@ -69,7 +69,8 @@ class CallSession : public Call {
     if (!outbox_.open() || now - *revoked_since_ < kRevoking) return;
     End(
         Unauthenticated("its token has been revoked; with another one the dance can resume from "
-                        "the last continuation"));
+                        "the last continuation",
+                        /*renewable=*/true));
   }
 
   /// Identifies the caller; call first. Returns false if the token is not valid, which ends the

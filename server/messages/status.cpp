@@ -121,8 +121,9 @@ Violation ViolationOf(const Error& error) {
   return {OneShortLine(PathInMessage(error)), OneShortLine(error.Of("").what())};
 }
 
-grpc::Status Unauthenticated(const std::string& message) {
-  return MakeStatus({grpc::StatusCode::UNAUTHENTICATED, "TOKEN_NEEDED", false}, message, {}, {}, 0);
+grpc::Status Unauthenticated(const std::string& message, bool renewable) {
+  return MakeStatus({grpc::StatusCode::UNAUTHENTICATED, "TOKEN_NEEDED", renewable}, message, {}, {},
+                    0);
 }
 
 const char* NameOf(grpc::StatusCode code) {

@@ -21,8 +21,9 @@ struct Violation {
 };
 Violation ViolationOf(const Error& error);
 
-/// The status for unknown callers, with ErrorInfo.
-grpc::Status Unauthenticated(const std::string& message);
+/// The status for unknown callers, with ErrorInfo. `renewable`: clients may come back at once with
+/// another token, which RetryInfo says.
+grpc::Status Unauthenticated(const std::string& message, bool renewable = false);
 
 /// The usual name of a status code, such as "RESOURCE_EXHAUSTED".
 const char* NameOf(grpc::StatusCode code);

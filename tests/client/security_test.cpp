@@ -469,6 +469,31 @@ TEST_F(TokensTest, HoldersAreServedUntilRemoval) {
 }
 
 // Removed holders stay refused, whatever happens to the file.
+TEST_F(TokensTest, ADanceGoesOnWithARenewedToken) {
+  Write("tokens", LineOf("old", "alice") + LineOf("new", "alice"));
+  const auto server = Start([&](ServerConfig& config) { config.tokens = folder_ / "tokens"; });
+  Options options = With(*server, "old");
+  options.retry_s = 20;
+  const Client client(options);
+  const auto dance = client.StartDance({.seed = 4, .frames = 250});
+  dance->GenerateUntil(120);
+  size_t frames = 0;
+  int resumed = 0;
+  bool renewed = false;
+  while (const std::optional<Message> message = dance->Next()) {
+    if (const auto* block = std::get_if<FrameBlock>(&*message)) frames += block->poses.size();
+    if (std::holds_alternative<Continuation>(*message) && !std::exchange(renewed, true)) {
+      Write("token", "new\n");
+      Write("tokens", LineOf("new", "alice"));
+    }
+    if (!std::holds_alternative<Resumed>(*message)) continue;
+    ++resumed;
+    dance->CompleteKeys();
+  }
+  EXPECT_EQ(frames, 250U);
+  EXPECT_EQ(resumed, 1);
+}
+
 TEST_F(TokensTest, BrokenFileAdmitsNobody) {
   const std::filesystem::path file = folder_ / "tokens";
   const std::string alice = LineOf("a", "alice"), bob = LineOf("b", "bob");

@@ -60,6 +60,7 @@ TEST_F(RevokedTest, ItEndsAndGoesOnWithAnotherToken) {
   EXPECT_EQ(answer.status.error_code(), grpc::StatusCode::UNAUTHENTICATED);
   EXPECT_THAT(answer.status.error_message(), testing::HasSubstr("has been revoked"));
   EXPECT_EQ(DetailsOf(answer.status).error_info->reason(), "TOKEN_NEEDED");
+  EXPECT_TRUE(DetailsOf(answer.status).retry_info) << "so clients come back with a renewed token";
 
   his->SendGenerateUntil(90);
   EXPECT_EQ(his->Finish().Join(), wanted) << "nobody else is disturbed";
