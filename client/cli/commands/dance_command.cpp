@@ -120,11 +120,13 @@ void Run(const DanceOptions& options) {
   }
   // Only our own server's default model is known to have SMPL's skeleton.
   if (options.server.addresses.empty() && options.model.empty()) CheckKeyFiles(options, music);
-  const Connection connection(options.server, options.model);
+  std::optional<Connection> connection(std::in_place, options.server, options.model);
   const Interruption interruption;
-  if (stage) return DanceTogether(options, *stage, music, connection, out);
+  if (stage) return DanceTogether(options, *stage, music, *connection, out);
   std::optional<VmcShow> show;
-  const auto [dance, written] = Perform(Plan(options, music, connection), connection, out, &show);
+  const auto [dance, written] = Perform(Plan(options, music, *connection), *connection, out, &show);
+  // Nothing answers the server's pings while the dance is shown.
+  connection.reset();
   options.bvh.Write(out, dance.header.skeleton, dance.motion, dance.contacts);
   if (!options.report.empty()) WriteFile(options.report, ReportJson(written));
   std::cout << ReportText(written) << out.string() << std::endl;

@@ -4,7 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <future>
 #include <map>
+#include <regex>
 
 #include "client/authoring/pose_library.h"
 #include "model/formats/motion_file.h"
@@ -12,6 +17,7 @@
 #include "tests/client/command_fixture.h"
 #include "tests/client/live/osc_receiver.h"
 #include "tests/client/test_music.h"
+#include "tests/support/eventually.h"
 #include "tests/support/expect_error.h"
 
 namespace choreo::vmc_test {
@@ -108,6 +114,31 @@ TEST_F(CommandTest, ADanceIsStreamedAsVmcWhileItIsMade) {
     EXPECT_NEAR(Bones(bundles[i + 1]).at("Hips").position.y(), motion.frames[i].root_position.y(),
                 1e-4);
   }
+}
+
+/// Whether somebody is connected to this port of this machine.
+bool IsConnected(int port) {
+  std::ifstream table("/proc/net/tcp");
+  char hexadecimal[8];
+  std::snprintf(hexadecimal, sizeof hexadecimal, "%04X", port);
+  const std::regex established(std::string(":") + hexadecimal + " [0-9A-F]+:[0-9A-F]+ 01");
+  for (std::string line; std::getline(table, line);)
+    if (std::regex_search(line, established)) return true;
+  return false;
+}
+
+// gRPC hardly polls meanwhile: pings got no answers, and new connections no handshakes.
+TEST_F(CommandTest, NoServerIsHeldWhileADanceIsShown) {
+  OscReceiver receiver;
+  auto shown = std::async(std::launch::async, [&] {
+    return Choreo("dance --seconds 4 -k none" + Server() + "-o " + At("d.npz") + " --vmc " +
+                  receiver.address());
+  });
+  ASSERT_TRUE(Eventually([&] { return std::filesystem::exists(folder_ / "d.npz"); }));
+  ASSERT_TRUE(Eventually([&] { return !IsConnected(server_.port()); }));
+  const size_t by_then = receiver.count();
+  EXPECT_EQ(shown.get().code, 0);
+  EXPECT_LT(by_then, receiver.Stop().size());
 }
 
 }  // namespace choreo::vmc_test
