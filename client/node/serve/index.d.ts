@@ -26,7 +26,10 @@ export interface ServeOptions {
   away?: number;
   /** Bytes of each dance's latest events to keep for a page that comes back; default 8 MiB, some minutes. */
   keep?: number;
-  /** Seconds that a page may be behind before the dance waits for it; default 10. */
+  /**
+   * Seconds that a page may be behind before the dance waits for it; default 10. What the systems on the way have taken counts as read, 4 MB and more,
+   * minutes of a dance: so this bounds what Node.js keeps. A page that follow()s tells when it pauses because frames are late.
+   */
   behind?: number;
   /** A dance went on at another server. Pages hear no addresses. */
   onResume?: (resumed: Resumed) => void;
