@@ -129,11 +129,11 @@ const smallTargets = (page) => page.evaluate(() => [...document.querySelectorAll
   .filter(([at, { width, height }]) => height < 43.9 || (width < 43.9 && !at.matches('.interval')))
   .map(([at, { width, height }]) => `${at.ariaLabel || at.textContent || at.tagName} ${width} × ${height}`));
 
-/// Pictures of the page as phones and wide screens have it, light and dark: PREFIX390-light.png ... The page is then as large as before.
+/// Pictures of the page as phones and wide screens have it, light and dark: PREFIX390-light.png ... The page is then light, and as large as before.
 export async function takePictures(page, prefix = '') {
   const size = page.viewportSize();
   for (const colorScheme of ['light', 'dark']) {
-    for (const [width, height] of [[390, 844], [1600, 900]]) {
+    for (const [width, height] of [[390, 844], [1600, 1000]]) {
       await page.setViewportSize({ width, height });
       await page.emulateMedia({ colorScheme });
       await page.waitForTimeout(2500);
@@ -145,6 +145,37 @@ export async function takePictures(page, prefix = '') {
     }
   }
   await page.setViewportSize(size);
+  await page.emulateMedia({ colorScheme: 'light' });
+}
+
+/// A finger on the page: it taps in the middle of what is found there, and drags that by pixels to the right.
+export async function finger(page) {
+  const devtools = await page.context().newCDPSession(page);
+  await devtools.send('Emulation.setTouchEmulationEnabled', { enabled: true });
+  const touch = (type, ...touchPoints) => devtools.send('Input.dispatchTouchEvent', { type, touchPoints });
+  const middleOf = async (part) => {
+    await part.scrollIntoViewIfNeeded();
+    const { x, y, width, height } = await part.boundingBox();
+    const middle = { x: x + width / 2, y: y + height / 2 };
+    const covers = await part.evaluate((element, { x, y }) => {
+      const top = document.elementFromPoint(x, y);
+      return element.contains(top) ? null : top?.outerHTML.slice(0, 200);
+    }, middle);
+    assert.equal(covers, null, `${part} is covered`);
+    return middle;
+  };
+  return {
+    tap: async (part) => {
+      await touch('touchStart', await middleOf(part));
+      await touch('touchEnd');
+    },
+    drag: async (part, right) => {
+      const { x, y } = await middleOf(part);
+      await touch('touchStart', { x, y });
+      for (let step = 1; step <= 4; ++step) await touch('touchMove', { x: x + (step * right) / 4, y });
+      await touch('touchEnd');
+    },
+  };
 }
 
 /// Runs what people do, `body`, on the page of a studio of its own, in a browser that is launched with `args`. Afterwards nothing may have left

@@ -1,7 +1,7 @@
 // Keys on the studio's timeline: what Space does there, and a pose that is set where one stands already.
 //   node timeline.test.mjs CHOREO_PROGRAM PICTURES_FOLDER
 import assert from 'node:assert/strict';
-import { check, clicks, inFolder, inStudio } from './harness.mjs';
+import { check, clicks, inFolder, inStudio, takePictures } from './harness.mjs';
 
 const seconds = 8;
 
@@ -52,7 +52,7 @@ await inStudio(async ({ page, until, settle, message, scale, frames, give }) => 
     await page.mouse.move(from.x + 40, from.y + 40);
     await page.mouse.move(lane.x + 40 + pixels * (frame / 30) + 3, lane.y + 40, { steps: 3 });
     assert.equal(await page.locator('.key.replaced').getAttribute('data-key'), id, 'it is not seen which one');
-    await page.screenshot({ path: inFolder('replaced.png') });
+    await takePictures(page, 'replaced-');
     await page.mouse.up();
     await settle();
     const after = await keys();
@@ -250,5 +250,26 @@ await inStudio(async ({ page, until, settle, message, scale, frames, give }) => 
     assert.ok((await words('Keep')).every((text) => /^Keep [A-D]$/.test(text)), `${await words('Keep')}`);
     await page.getByRole('region', { name: 'Key' }).getByRole('button', { name: 'Add to poses' }).click();
     assert.match((await message()).text, /^Added to the poses as /);
+    await page.getByRole('complementary', { name: 'Settings' }).getByRole('button', { name: 'Keep A' }).click();
+  });
+
+  await check('a held, hit key with hands and a chosen marker are seen on phones and wide screens, light and dark', async () => {
+    await page.locator('.key').nth(1).click();
+    await page.evaluate(() => {
+      const { selectedKey, project, audio, addMarker, hitKey, handKey, holdKey } = window.choreo;
+      audio.currentTime -= 0.5;
+      addMarker();
+      hitKey(selectedKey.value, 2);
+      handKey(selectedKey.value, 3);
+      return holdKey(selectedKey.value, 12);
+    });
+    await settle();
+    const [marker, key] = await page.evaluate(() => [window.choreo.project.value.markers[0], window.choreo.project.value.keys[1]]);
+    assert.deepEqual([key.hold, key.hit, key.hands], [12, 2, 3]);
+    assert.equal(await page.getByLabel('What hands do').locator('option:checked').innerText(), 'open');
+    await page.locator('.marker').press('Enter');
+    await until((seconds) => Math.abs(window.choreo.audio.currentTime - seconds) < 0.01, marker.frame / 30);
+    await page.evaluate(() => (window.choreo.message.value = null));
+    await takePictures(page, 'key-');
   });
 });
