@@ -1,7 +1,7 @@
 // The studio on a phone: what is needed is seen at once, and nothing is cut off.
 //   node phone.test.mjs CHOREO_PROGRAM PICTURES_FOLDER
 import assert from 'node:assert/strict';
-import { check, clicks, inFolder, inStudio, patience, takePictures } from './harness.mjs';
+import { check, clicks, finger, inFolder, inStudio, patience, takePictures } from './harness.mjs';
 
 await inStudio(async ({ page, until, settle, give }) => {
   await until(() => window.choreo?.isConnected.value);
@@ -56,6 +56,36 @@ await inStudio(async ({ page, until, settle, give }) => {
     assert.ok(isGood(), JSON.stringify(boxes));
     await page.screenshot({ path: inFolder('phone-takes.png'), timeout: patience });
     await page.getByRole('main').getByRole('button', { name: 'Keep A' }).click();
+  });
+
+  await check('a finger marks a moment, holds and hits a key, adds a dancer, chooses an eight, and mirrors it', async () => {
+    const { tap, drag } = await finger(page);
+    const project = () => page.evaluate(() => window.choreo.project.value);
+    const press = async (region, name) => {
+      await tap(page.getByRole('region', { name: region }).getByRole('button', { name, exact: true }));
+      await settle();
+    };
+    await page.evaluate(() => (window.choreo.selection.value = null));
+    await tap(page.locator('.key').nth(1));
+    await until(() => window.choreo.selectedKey.value === window.choreo.project.value.keys[1].id);
+    await press('Markers', 'Mark the playhead');
+    assert.deepEqual((await project()).markers.map(({ frame }) => frame), [(await project()).keys[1].frame]);
+    await drag(page.getByRole('slider', { name: /^How long key/ }), 80);
+    await until(() => window.choreo.project.value.keys[1].hold > 0);
+    await settle();
+    await drag(page.getByRole('slider', { name: /^How hard key/ }), -40);
+    await until(() => window.choreo.project.value.keys[1].hit > 0);
+    await settle();
+    await press('Dancers', 'Add a dancer');
+    assert.equal((await project()).dancers.length, 2);
+    await press('Phrase', 'Choose an eight');
+    const phrase = await page.evaluate(() => window.choreo.selection.value);
+    const { keys } = await project();
+    const chosen = keys.filter(({ frame }) => frame >= phrase[0] && frame < phrase[1]);
+    assert.ok(chosen.length > 0);
+    await press('Phrase', 'Mirror');
+    const now = (await project()).keys;
+    keys.forEach((key, i) => (chosen.includes(key) ? assert.notDeepEqual : assert.deepEqual)(now[i].pose.rotations, key.pose.rotations));
   });
 
   await takePictures(page, 'phone-');
