@@ -511,33 +511,4 @@ TEST(Architecture, FilesIncludeThePartsOfTorchThatTheyUse) {
   }
 }
 
-// Figures that fall short are to be learnt, not corrected by constants between network and arrival.
-TEST(Architecture, FewConstantsAreTunedBetweenNetworkAndArrival) {
-  int constants = 0;
-  // Constants of a file and options of a stage, but neither integers, such as a solver's
-  // iterations, nor members that begin at zero.
-  const std::regex name(R"(\b(k[A-Z]\w*|double \w+|, \w+) = (?!0;)[0-9])");
-  std::vector<std::string> files = {"model/flow/flow_sampler.cpp", "model/flow/flow_window.cpp",
-                                    "model/flow/turn_prior.cpp", "model/flow/window_energy.cpp",
-                                    "model/dance/transition.cpp"};
-  for (const std::string& file : Sources().files()) {
-    if (file.starts_with("model/plan/") && file != "model/plan/arrival.cpp" &&
-        file != "model/plan/transition_spec.h")  // what is asked, not how it is corrected
-      files.push_back(file);
-  }
-  for (const std::string& file : files) {
-    std::ifstream in(std::filesystem::path(CHOREO_SOURCE_DIR) / file);
-    ASSERT_TRUE(in) << file;
-    for (std::string line; std::getline(in, line);) {
-      if (!line.starts_with("constexpr double ") && !line.starts_with("inline constexpr double ") &&
-          !(file.ends_with(".h") && line.starts_with("  double ")))
-        continue;
-      constants +=
-          static_cast<int>(std::distance(std::sregex_iterator(line.begin(), line.end(), name), {}));
-    }
-  }
-  EXPECT_GT(constants, 5) << "none were found";
-  EXPECT_LE(constants, 35);  // what there is: 10 of model/flow and model/dance, the rest of plans
-}
-
 }  // namespace choreo::architecture_test
