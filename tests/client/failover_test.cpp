@@ -220,7 +220,7 @@ TEST(FailoverTest, LetsADancePauseLongerThanSilence) {
   Options options = Replicas({server.address()});
   options.silence_s = 2;
   const Danced danced =
-      Dance(Client(options), [] { std::this_thread::sleep_for(std::chrono::milliseconds(4'500)); });
+      Dance(Client(options), [] { std::this_thread::sleep_for(std::chrono::milliseconds(3'000)); });
   EXPECT_EQ(danced.motion.frames.size(), 250U);
   EXPECT_TRUE(danced.resumed.empty());
 }

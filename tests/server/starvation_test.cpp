@@ -197,27 +197,17 @@ TEST_F(StarvationTest, ABurstEndsNoLiveDance) {
 }
 
 TEST_F(StarvationTest, RefusesAtOnceWhatCannotBeServedInTime) {
-  /// Takes longer to make a frame than the frame lasts.
-  class SlowSampler final : public FakeSampler {
-   public:
-    void OnFrame(const TransitionSpec& /*spec*/, Plan* /*plan*/) override {
-      std::this_thread::sleep_for(milliseconds(50));
-    }
-  };
-  auto slow = std::make_unique<SlowSampler>();
-  slow->set_seconds_a_frame(0.05);  // as WarmUp measures in seconds
+  auto slow = std::make_unique<ProbedSampler>("slow", probe);
+  slow->set_seconds_a_frame(0.05);  // longer than a frame lasts
   StartWith(std::move(slow));
+  probe->Close();
   DanceClient first(stub());
-  v1::DanceConfig long_dance = Config();
-  long_dance.set_frames(1'000);
-  first.Send(long_dance);
-  first.SendKeyframesComplete();
+  first.Send(Config());
   ASSERT_TRUE(first.ReadHeader());
   const grpc::Status refused = DanceToAKey().status;
   EXPECT_EQ(refused.error_code(), grpc::StatusCode::RESOURCE_EXHAUSTED);
   EXPECT_THAT(refused.error_message(), HasSubstr("the server is busy: calls have"));
   EXPECT_TRUE(DetailsOf(refused).retry_info);
-  first.Cancel();
 }
 
 TEST_F(StarvationTest, OneAddressCannotTakeAllCalls) {
