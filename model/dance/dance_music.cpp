@@ -136,6 +136,13 @@ void DanceMusic::SetWhole(const MusicAnalysis& music) {
     plan_.beats_[i].confidence = music.confidence[i];
 }
 
+std::vector<double> DanceMusic::GivenAfter(double second) const {
+  if (!has_beats_) return {};
+  std::vector<double> after = SecondsOf(plan_.beats_);
+  std::erase_if(after, [second](double beat) { return beat <= second; });
+  return after;
+}
+
 int64_t DanceMusic::GiveBeats(std::span<const double> seconds, int64_t from,
                               const std::string& field, std::span<const double> downbeats,
                               std::optional<double> confidence) {

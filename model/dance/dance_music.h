@@ -83,6 +83,9 @@ class DanceMusic {
   /// config have precedence.
   void SetWhole(const MusicAnalysis& music);
 
+  /// The config's beats that are later than this second.
+  std::vector<double> GivenAfter(double second) const;
+
   /// Sets beats, ascending, for transitions that begin at `from` or later. They replace all given
   /// and detected beats between the first and the last of them. Earlier given beats are dropped if
   /// they are after the last, or less than half a beat before the first. Beats before `from` are

@@ -120,7 +120,9 @@ DanceEvents DanceScore::EndOfAudio() {
   if (audio_->silent()) events.push_back(MusicSilent(end - 1, audio_->seconds()));
   if (audio_->cancels()) events.push_back(ChannelsCancel(end - 1));
   for (DanceEvent& behind : KeysBehindMusic()) events.push_back(std::move(behind));
-  // Tolerates clients that round a song's length to frames, up or down.
+  // Tolerates clients that round times to frames, up or down.
+  const auto beats = music_.GivenAfter(static_cast<double>(end + 1) / model_.fps);
+  if (!beats.empty()) events.push_back(BeatsBehindMusic(end, beats.size(), beats.front()));
   if (end_frame_ && *end_frame_ > end + 1) {
     events.push_back(DanceBehindMusic(end, static_cast<double>(*end_frame_ - end) / model_.fps));
   }

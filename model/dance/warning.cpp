@@ -143,6 +143,14 @@ Warning DanceBehindMusic(int64_t music_end, double seconds) {
       Warning::Code::kDanceBehindMusic};
 }
 
+Warning BeatsBehindMusic(int64_t music_end, size_t count, double first) {
+  return {music_end,
+          std::to_string(count) + (count == 1 ? " given beat lies" : " given beats lie") +
+              " behind the end of the music at " + Seconds(music_end) + ", from " + Rounded(first) +
+              " s on",
+          Warning::Code::kBeatsBehindMusic};
+}
+
 Warning JointTooFast(const Skeleton& skeleton, int64_t frame, int joint, double m_per_s,
                      const std::string& id, double seconds) {
   std::string message = skeleton.joint_names[static_cast<size_t>(joint)] + " moves at " +

@@ -90,6 +90,7 @@ struct Warning {
     kJointTooFast,        ///< a joint moves faster than people can, fastest at `frame`
     kFlightTooLong,       ///< from `frame` on nothing touches the floor for longer than people jump
     kFootSlides,          ///< from `frame` on a foot slides over the floor
+    kBeatsBehindMusic,    ///< the music ends at `frame`, before the last given beats
   };
   int64_t frame = 0;
   std::string message = {};  ///< names the value and the limit

@@ -186,7 +186,7 @@ std::optional<DanceEvent> FromProto(const v1::Event& event) {
     case v1::Event::kWarning:
       return Warning{frame,
                      event.warning().message(),
-                     ToCode(event.warning().code(), Warning::Code::kFootSlides),
+                     ToCode(event.warning().code(), Warning::Code::kBeatsBehindMusic),
                      event.warning().keyframe_id(),
                      event.warning().figure(),
                      event.warning().limit()};

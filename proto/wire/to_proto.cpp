@@ -7,7 +7,8 @@ namespace {
 
 static_assert(static_cast<int>(KeyRejected::Code::kInvalid) == v1::REJECTION_CODE_INVALID &&
                   static_cast<int>(Beat::Source::kHeard) == v1::BEAT_SOURCE_HEARD &&
-                  static_cast<int>(Warning::Code::kFootSlides) == v1::WARNING_CODE_FOOT_SLIDES,
+                  static_cast<int>(Warning::Code::kBeatsBehindMusic) ==
+                      v1::WARNING_CODE_BEATS_BEHIND_MUSIC,
               "codes are numbered alike");
 
 void FillErrors(const KeyReached& key, v1::KeyframeErrors* out) {

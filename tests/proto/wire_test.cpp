@@ -170,7 +170,7 @@ TEST(Wire, CodesOfLaterVersionsAreUnknown) {
   event.mutable_warning()->set_code(static_cast<v1::WarningCode>(v1::WarningCode_MAX + 1));
   EXPECT_EQ(std::get<Warning>(*wire::FromProto(event)).code, Warning::Code::kUnknown);
   event.mutable_warning()->set_code(v1::WarningCode_MAX);
-  EXPECT_EQ(std::get<Warning>(*wire::FromProto(event)).code, Warning::Code::kFootSlides);
+  EXPECT_EQ(std::get<Warning>(*wire::FromProto(event)).code, Warning::Code::kBeatsBehindMusic);
   event.mutable_keyframe_rejected()->set_code(v1::RejectionCode_MAX);
   EXPECT_EQ(std::get<KeyRejected>(*wire::FromProto(event)).code, KeyRejected::Code::kInvalid);
   event.mutable_beat()->set_source(v1::BeatSource_MAX);

@@ -118,6 +118,22 @@ TEST_F(MusicFaultsTest, FramesBeyondTheMusicAreDancedWithAWarning) {
   }
 }
 
+TEST_F(MusicFaultsTest, BeatsBehindTheMusicAreWarnedOf) {
+  Start();
+  const auto dance = [&](std::vector<double> beats) {
+    Requests requests = {MusicConfigRequest(), Floats(22'050, 0.1F)};
+    requests[0].mutable_config()->mutable_music_beats()->Add(beats.begin(), beats.end());
+    return Dance(requests);
+  };
+  const Answer answer = dance({0.5, 1, 1.5, 2});
+  ASSERT_TRUE(answer.status.ok()) << answer.status.error_message();
+  const v1::Event event = TheWarning(answer.events, v1::WARNING_CODE_BEATS_BEHIND_MUSIC);
+  EXPECT_EQ(event.frame(), 30);
+  EXPECT_TRUE(Says(event, "2 given beats lie behind the end of the music at 1 s, from 1.5 s on"))
+      << event.warning().message();
+  EXPECT_EQ(Warnings(dance({0.5, 1, 1.02}).events), "");
+}
+
 TEST_F(MusicFaultsTest, FloatsThatAreScaledAsIntegersAreRefused) {
   Start();
   const Answer answer = Dance({MusicConfigRequest(), Floats(100, 8000)});
