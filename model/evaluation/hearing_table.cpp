@@ -187,7 +187,10 @@ class Judge {
     return std::span(of_frames).subspan(
         from, std::min((nth + 1) * part_frames(), of_frames.size()) - from);
   }
-  double Hits(const MadeSong& song, const std::vector<Pose>& dance) const;
+  struct HitRate {
+    double percent = 0, chance = 0;
+  };
+  HitRate HitsOf(const MadeSong& song, const std::vector<Pose>& dance) const;
 
   struct Tally {
     double dances = 0, exploded = 0, frames = 0, rare = 0;
@@ -304,7 +307,7 @@ void Judge::Form() {
   Row("two songs ÷ two seeds", 2, kOnlyUsual, [&](const Setting&) { return songs / seeds; });
 }
 
-double Judge::Hits(const MadeSong& song, const std::vector<Pose>& dance) const {
+Judge::HitRate Judge::HitsOf(const MadeSong& song, const std::vector<Pose>& dance) const {
   const std::vector<float> speeds = Speeds(dance);
   const auto hits = [&](double moved) {
     std::vector<double> beats;
@@ -312,37 +315,42 @@ double Judge::Hits(const MadeSong& song, const std::vector<Pose>& dance) const {
     return 100 * ScoreBeats(speeds, beats, kModelFps).hit_rate;
   };
   const int shifts = static_cast<int>(std::lround(60 * kModelFps / TempoOf(song.beats)));
-  double chance = 0;
-  for (int shift = 0; shift < shifts; ++shift) chance += hits(shift) / shifts;
-  return hits(0) - chance;
+  HitRate rate{.percent = hits(0)};
+  for (int shift = 0; shift < shifts; ++shift) rate.chance += hits(shift) / shifts;
+  return rate;
 }
 
 void Judge::Hits() {
-  double free = 0, keyed = 0, on_path = 0;
+  std::map<std::string, HitRate> rates;  // by how the dances are led
   for (int i = 0; i < options_.seeds; ++i) {
     const double bpm = 90 + 20 * static_cast<double>(i);
     const MadeSong song = MakeSong({.seed = options_.first_seed + 40 + static_cast<uint64_t>(i),
                                     .seconds = kHitSeconds,
                                     .tempo = {{0, bpm}}});
+    const auto add = [&](const char* led, const std::vector<Pose>& dance) {
+      const HitRate rate = HitsOf(song, dance);
+      rates[led].percent += rate.percent / options_.seeds;
+      rates[led].chance += rate.chance / options_.seeds;
+    };
     DanceConfig config;
     config.seed = static_cast<uint64_t>(i);
     Know(song.mono, &config);
     const std::vector<Pose> dance = Dance(song.mono, config, kUsual);
-    free += Hits(song, dance) / options_.seeds;
-    config.seed += static_cast<uint64_t>(options_.seeds);
     const std::vector<Key> keys = KeysOf(dance);
-    keyed += Hits(song, Dance(song.mono, config, kUsual, keys)) / options_.seeds;
-    if (!queue_.model().Takes(kRootPath)) continue;
-    on_path +=
-        Hits(song, Dance(song.mono, config, kUsual, keys, Circle(dance.size()))) / options_.seeds;
+    const bool takes_path = queue_.model().Takes(kRootPath);
+    add("free", dance);
+    if (takes_path)
+      add("free on a path", Dance(song.mono, config, kUsual, {}, Circle(dance.size())));
+    config.seed += static_cast<uint64_t>(options_.seeds);
+    add("keyed", Dance(song.mono, config, kUsual, keys));
+    if (takes_path)
+      add("keyed on a path", Dance(song.mono, config, kUsual, keys, Circle(dance.size())));
   }
-  const auto row = [&](const std::string& which, double points) {
-    Row("hits over chance, " + which + " points", 0, kOnlyUsual,
-        [&](const Setting&) { return points; });
-  };
-  row("free", free);
-  row("keyed", keyed);
-  if (queue_.model().Takes(kRootPath)) row("keyed on a path", on_path);
+  for (const auto& [led, rate] : rates) {
+    Row("hits %, " + led, 0, kOnlyUsual, [&](const Setting&) { return rate.percent; });
+    Row("hits over chance, " + led + " points", 0, kOnlyUsual,
+        [&](const Setting&) { return rate.percent - rate.chance; });
+  }
 }
 
 void Judge::Fastest() {

@@ -33,9 +33,10 @@ struct HearingOptions {
 ///   a part again ÷ another part   mean distances of joints, with both dancers moved to one place
 ///                                 and facing
 ///   two songs ÷ two seeds         the same for dances of one part each
-///   hits over chance              points by which kinematic beats hit known beats more often
-///                                 than the same beats moved, as in HitsOverChance: without
-///                                 keys, through poses of another dance every 2 s, and on a circle
+///   hits                          share of kinematic beats that hit known beats: without keys,
+///                                 through poses of another dance every 2 s, and both on a circle
+///   hits over chance              points by which that is more than of the same beats moved, as in
+///                                 HitsOverChance
 ///   rarely fast frames            share of all these dances' frames above `rare_speed`
 ///   exploded                      share of these dances with a frame above `top_speed`
 Table EvaluateHearing(SampleQueue& queue, const std::vector<NamedSong>& songs,

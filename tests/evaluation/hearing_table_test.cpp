@@ -31,11 +31,13 @@ TEST(HearingTable, HasAllFiguresAndMeasuresTheEffectOfMusic) {
   const std::vector<NamedSong> songs{{"mine", MakeSong({.seed = 5, .seconds = 20}).mono}};
   const Table table =
       EvaluateHearing(queue, songs, {.first_seed = 3, .seeds = 1, .part_seconds = 10});
-  ASSERT_EQ(table.rows.size(), 13U);
+  ASSERT_EQ(table.rows.size(), 18U);
   for (const char* row :
        {"drums ÷ pad", "silence ÷ drums", "loudness and speed, made", "loudness and speed, mine",
         "seconds from a drop after a pad", "seconds from a drop after silence", "a part again",
-        "two songs", "hits over chance, free", "hits over chance, keyed points",
+        "two songs", "hits %, free", "hits %, free on a path", "hits %, keyed",
+        "hits %, keyed on a path", "hits over chance, free points",
+        "hits over chance, free on a path", "hits over chance, keyed points",
         "hits over chance, keyed on a path", "rarely fast frames %", "exploded %"}) {
     EXPECT_TRUE(std::isfinite(Figure(table, row, 0))) << row;
     const std::string name = row;
@@ -51,6 +53,9 @@ TEST(HearingTable, HasAllFiguresAndMeasuresTheEffectOfMusic) {
   EXPECT_NEAR(Figure(table, "silence ÷ drums", 0), 1, 0.2);
   EXPECT_LT(Figure(table, "a part again", 3), Figure(table, "a part again", 4) - 0.1);
   EXPECT_GT(Figure(table, "two songs", 0), 0.5);
+  const double hits = Figure(table, "hits %, free", 0);
+  EXPECT_GT(hits, Figure(table, "hits over chance, free points", 0));
+  EXPECT_LE(hits, 100);
 }
 
 }  // namespace choreo::hearing_table_test
