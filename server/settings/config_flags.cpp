@@ -19,7 +19,18 @@ std::string FaultOfFile(const std::string& path) try {
   throw CLI::FileError(error.what());  // yields to --help
 }
 
-void AddOptions(CLI::App& app, ServerConfig& config) {
+/// Adds an option that SIGHUP changes: it concerns only calls to come, or the next look at those in
+/// progress.
+template <auto Member>
+CLI::Option* Reread(CLI::App& app, ServerConfig& config, RereadSettings& reread,
+                    const std::string& flag, const std::string& help) {
+  reread[flag.substr(2)] = [](const ServerConfig& from, ServerConfig* to) {
+    to->*Member = from.*Member;
+  };
+  return app.add_option(flag, config.*Member, help);
+}
+
+void AddOptions(CLI::App& app, ServerConfig& config, RereadSettings& reread) {
   app.add_option("--listen", config.listen,
                  "HOST:PORT to listen on. Port 0 picks a free one, which is printed. The default "
                  "serves this machine alone; [::] in place of 127.0.0.1 serves all, with TLS or "
@@ -55,9 +66,10 @@ void AddOptions(CLI::App& app, ServerConfig& config) {
                  "candidates count, not calls. More are refused (RESOURCE_EXHAUSTED).")
       ->envname("CHOREO_MAX_WAITING")
       ->capture_default_str();
-  app.add_option("--max-streams", config.max_streams,
-                 "Most calls in progress. More are refused (RESOURCE_EXHAUSTED). 0: 50 a core, and "
-                 "at least 64; --max-load also refuses what the cores cannot carry.")
+  Reread<&ServerConfig::max_streams>(
+      app, config, reread, "--max-streams",
+      "Most calls in progress. More are refused (RESOURCE_EXHAUSTED). 0: 50 a core, and "
+      "at least 64; --max-load also refuses what the cores cannot carry.")
       ->envname("CHOREO_MAX_STREAMS")
       ->capture_default_str();
   app.add_option("--workers", config.workers,
@@ -74,9 +86,10 @@ void AddOptions(CLI::App& app, ServerConfig& config) {
                  "Threads that decode files, and as many that analyse long pieces of music.")
       ->envname("CHOREO_IO_THREADS")
       ->capture_default_str();
-  app.add_option("--drain-seconds", config.drain_seconds,
-                 "Seconds that streams may continue after SIGTERM or SIGINT before they end as "
-                 "UNAVAILABLE. New ones are refused, and health says NOT_SERVING.")
+  Reread<&ServerConfig::drain_seconds>(
+      app, config, reread, "--drain-seconds",
+      "Seconds that streams may continue after SIGTERM or SIGINT before they end as "
+      "UNAVAILABLE. New ones are refused, and health says NOT_SERVING.")
       ->envname("CHOREO_DRAIN_SECONDS")
       ->capture_default_str();
   app.add_option("--outbox-kib", config.outbox_kib,
@@ -115,29 +128,33 @@ void AddOptions(CLI::App& app, ServerConfig& config) {
 }
 
 // Limits on clients' resources and idle time.
-void AddLimits(CLI::App& app, ServerConfig& config) {
-  app.add_option("--max-streams-of-peer", config.max_streams_of_peer,
-                 "Most calls in progress of one token's holder or, without --tokens, from one "
-                 "address. 0: --max-streams for a lone caller, seven eighths of it beside another.")
+void AddLimits(CLI::App& app, ServerConfig& config, RereadSettings& reread) {
+  Reread<&ServerConfig::max_streams_of_peer>(
+      app, config, reread, "--max-streams-of-peer",
+      "Most calls in progress of one token's holder or, without --tokens, from one "
+      "address. 0: --max-streams for a lone caller, seven eighths of it beside another.")
       ->envname("CHOREO_MAX_STREAMS_OF_PEER")
       ->capture_default_str();
-  app.add_option(
-         "--first-message-seconds", config.first_message_seconds,
-         "Seconds within which a call's first message must come, or it ends as DEADLINE_EXCEEDED.")
+  Reread<&ServerConfig::first_message_seconds>(
+      app, config, reread, "--first-message-seconds",
+      "Seconds within which a call's first message must come, or it ends as DEADLINE_EXCEEDED.")
       ->envname("CHOREO_FIRST_MESSAGE_SECONDS")
       ->capture_default_str();
-  app.add_option("--idle-seconds", config.idle_seconds,
-                 "Seconds without a message in either direction after which a call ends as "
-                 "DEADLINE_EXCEEDED.")
+  Reread<&ServerConfig::idle_seconds>(
+      app, config, reread, "--idle-seconds",
+      "Seconds without a message in either direction after which a call ends as "
+      "DEADLINE_EXCEEDED.")
       ->envname("CHOREO_IDLE_SECONDS")
       ->capture_default_str();
-  app.add_option("--unread-seconds", config.unread_seconds,
-                 "Seconds within which a client must take an answer, or its call is reset.")
+  Reread<&ServerConfig::unread_seconds>(
+      app, config, reread, "--unread-seconds",
+      "Seconds within which a client must take an answer, or its call is reset.")
       ->envname("CHOREO_UNREAD_SECONDS")
       ->capture_default_str();
-  app.add_option("--max-load", config.max_load,
-                 "Share of the cores' and engines' time that calls may need, by their frames. More "
-                 "calls are refused (RESOURCE_EXHAUSTED). Above 1: none are.")
+  Reread<&ServerConfig::max_load>(
+      app, config, reread, "--max-load",
+      "Share of the cores' and engines' time that calls may need, by their frames. More "
+      "calls are refused (RESOURCE_EXHAUSTED). Above 1: none are.")
       ->envname("CHOREO_MAX_LOAD")
       ->capture_default_str();
   app.add_option("--max-connection-seconds", config.max_connection_seconds,
@@ -172,9 +189,10 @@ void AddSecurity(CLI::App& app, ServerConfig& config) {
 }
 
 // Logs, metrics and health.
-void AddObservability(CLI::App& app, ServerConfig& config) {
-  app.add_option("--log-level", config.log_level,
-                 "trace, debug, info, warning, error, critical or off. The log goes to stderr.")
+void AddObservability(CLI::App& app, ServerConfig& config, RereadSettings& reread) {
+  Reread<&ServerConfig::log_level>(
+      app, config, reread, "--log-level",
+      "trace, debug, info, warning, error, critical or off. The log goes to stderr.")
       ->envname("CHOREO_LOG_LEVEL")
       ->capture_default_str();
   app.add_option("--log-format", config.log_format,
@@ -190,11 +208,19 @@ void AddObservability(CLI::App& app, ServerConfig& config) {
 
 }  // namespace
 
-void AddFlags(CLI::App& app, ServerConfig& config) {
-  AddOptions(app, config);
-  AddLimits(app, config);
+RereadSettings AddFlags(CLI::App& app, ServerConfig& config) {
+  RereadSettings reread;
+  AddOptions(app, config, reread);
+  AddLimits(app, config, reread);
   AddSecurity(app, config);
-  AddObservability(app, config);
+  AddObservability(app, config, reread);
+  return reread;
+}
+
+RereadSettings SettingsToReread() {
+  CLI::App app;
+  ServerConfig config;
+  return AddFlags(app, config);
 }
 
 }  // namespace choreo

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <map>
+#include <string>
+
 #include "server/settings/config.h"
 
 namespace CLI {
@@ -8,8 +11,14 @@ class App;
 
 namespace choreo {
 
+/// The settings that a running server changes at SIGHUP: each flag, without its dashes, and what
+/// copies its setting.
+using RereadSettings = std::map<std::string, void (*)(const ServerConfig& from, ServerConfig* to)>;
+
 /// Adds all flags of choreod to `app`. Each flag fills its setting in `config`, and has an
 /// environment variable: CHOREO_ and its name.
-void AddFlags(CLI::App& app, ServerConfig& config);
+RereadSettings AddFlags(CLI::App& app, ServerConfig& config);
+
+RereadSettings SettingsToReread();
 
 }  // namespace choreo

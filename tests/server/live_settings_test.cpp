@@ -4,12 +4,14 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "server/settings/config_flags.h"
 #include "tests/support/expect_error.h"
 #include "tests/support/temporary_folder.h"
 
@@ -50,6 +52,15 @@ TEST_F(LiveSettingsTest, LimitsAreUsedAtOnceAndOthersWait) {
   change = TakeOver(fresh, &config);
   EXPECT_THAT(change.used, IsEmpty());
   EXPECT_THAT(change.waiting, ElementsAre("io-threads is 3, was 2")) << "it still waits";
+}
+
+TEST_F(LiveSettingsTest, ThePageNamesThoseThatAreUsedAtOnce) {
+  std::ifstream page(std::filesystem::path(SOURCE_FOLDER) / "docs/settings.md");
+  std::string row;
+  while (std::getline(page, row) && !row.starts_with("| `max-streams`, ")) continue;
+  const RereadSettings reread = SettingsToReread();
+  for (const auto& [flag, copy] : reread) EXPECT_THAT(row, HasSubstr('`' + flag + '`'));
+  EXPECT_EQ(static_cast<size_t>(std::ranges::count(row, '`')), 2 * reread.size());
 }
 
 TEST_F(LiveSettingsTest, AFlagStillOverridesTheFile) {
