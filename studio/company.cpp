@@ -1,7 +1,6 @@
 #include "studio/company.h"
 
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "client/authoring/formation.h"
@@ -9,7 +8,7 @@
 #include "model/formats/gltf.h"
 #include "model/formats/motion_file.h"
 #include "studio/from_page.h"
-#include "studio/project_document.h"
+#include "studio/page_project.h"
 #include "studio/scratch_folder.h"
 
 namespace choreo::studio {
@@ -47,8 +46,7 @@ void WriteAll(const Skeleton& skeleton, const authoring::Dancers& stage,
 
 Response FormCompany(const StudioContext& context, const Company& request) {
   const Skeleton& skeleton = context.model().skeleton;
-  const authoring::Dancers stage =
-      authoring::ParseDancers(DancersJson(request.project()), kUnnamed, "");
+  const authoring::Dancers stage = StageOf(request.project());
   Response response;
   Formation* formation = response.mutable_formation();
   const std::vector<double> beats(request.beats().begin(), request.beats().end());

@@ -29,7 +29,8 @@ Pose Unwound(Pose pose, const std::string& field) {
 
 }  // namespace
 
-client::KeyPose FromProto(const v1::Keyframe& key, const Skeleton& skeleton) {
+client::KeyPose FromProto(const v1::Keyframe& key, const Skeleton& skeleton,
+                          const std::string& field, const std::string& pose) {
   client::KeyPose out;
   out.id = key.id();
   switch (key.when_case()) {
@@ -40,15 +41,15 @@ client::KeyPose FromProto(const v1::Keyframe& key, const Skeleton& skeleton) {
       out.time_s = key.time();
       break;
     default:
-      throw InvalidArgument("keyframe.when", "must be a frame or a time");
+      throw InvalidArgument(field + ".when", "must be a frame or a time");
   }
-  Target target = wire::ToTarget(key.pose(), key.has_mask() ? &key.mask() : nullptr, skeleton,
-                                 "keyframe.pose", "keyframe.mask");
-  CheckPoseLimits(target.pose, kMaxRotation, "2π", "keyframe.pose");
+  const v1::JointMask* mask = key.mask().joints().empty() ? nullptr : &key.mask();
+  Target target = wire::ToTarget(key.pose(), mask, skeleton, pose, field + ".mask");
+  CheckPoseLimits(target.pose, kMaxRotation, "2π", pose);
   out.pose = std::move(target.pose);
   out.mask = std::move(target.mask);
   if (key.has_hit()) out.hit = key.hit();
-  out.hands = wire::ToHands(key.hands(), "keyframe.hands");
+  out.hands = wire::ToHands(key.hands(), field + ".hands");
   return out;
 }
 

@@ -14,7 +14,10 @@
 /// one.
 namespace choreo::studio {
 
-client::KeyPose FromProto(const v1::Keyframe& key, const Skeleton& skeleton);
+/// `field`, `pose`: the paths of the key and of its pose in errors.
+client::KeyPose FromProto(const v1::Keyframe& key, const Skeleton& skeleton,
+                          const std::string& field = "keyframe",
+                          const std::string& pose = "keyframe.pose");
 client::AudioFormat FromProto(const v1::AudioFormat& format);
 /// Normalises rotations, which in files may exceed a half turn.
 std::vector<Pose> PosesOf(const v1::History& history, const Skeleton& skeleton);

@@ -11,8 +11,8 @@
 #include "studio/answers.h"
 #include "studio/company.h"
 #include "studio/from_page.h"
+#include "studio/page_project.h"
 #include "studio/project_dance.h"
-#include "studio/project_document.h"
 #include "studio/to_page.h"
 
 namespace choreo::studio {

@@ -10,12 +10,13 @@
 
 #include "client/authoring/json_fields.h"
 #include "client/authoring/key_faults.h"
+#include "client/authoring/key_file.h"
 #include "client/authoring/project_file.h"
 #include "model/core/rounded.h"
 #include "model/formats/bvh.h"
 #include "model/formats/motion_file.h"
+#include "studio/page_project.h"
 #include "studio/project_dance.h"
-#include "studio/project_document.h"
 #include "studio/scratch_folder.h"
 
 namespace choreo::studio {
@@ -144,7 +145,7 @@ void ProjectCalls::Dance(std::string project, bool as_bvh, Answer answer) {
 ProjectCalls::Reply ProjectCalls::Danced(const std::string& text, bool as_bvh) const {
   const client::ModelDescription& model = context_.model();
   json file = authoring::ParseJson(text, kUnnamed);
-  const authoring::Project project = authoring::ParseProject(file, kUnnamed);
+  authoring::Project project = authoring::ParseProject(file, kUnnamed);
   const std::optional<Song> song = ExtractSong(&file, project.song, context_.most_seconds());
   if (!song && !project.seconds)
     throw InvalidArgument(std::string(kUnnamed) + ":seconds", "is missing, and there is no song");
@@ -157,7 +158,11 @@ ProjectCalls::Reply ProjectCalls::Danced(const std::string& text, bool as_bvh) c
   double seconds = project.seconds.value_or(context_.most_seconds());
   if (song) seconds = std::min(seconds, song->heard.seconds());
 
-  const ProjectDance requested = DanceOf(context_, project, file, seconds, song ? &*song : nullptr);
+  const Song* heard = song ? &*song : nullptr;
+  if (project.has_keys)
+    project.keys.poses = authoring::KeysIn(file, kUnnamed, model.skeleton, &project.keys.places,
+                                           CountsOf(project, heard));
+  const ProjectDance requested = DanceOf(context_, project, seconds, heard);
   project.controls.RequireBegun(requested.config.controls, {*requested.config.frames, model.fps});
   authoring::RefuseHeldInAir(requested.keys, model.fps, model.skeleton);
   client::Audio audio;

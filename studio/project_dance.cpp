@@ -10,16 +10,11 @@
 #include "client/edit.h"
 #include "model/core/error.h"
 #include "studio/from_page.h"
-#include "studio/project_document.h"
+#include "studio/page_project.h"
 #include "studio/to_page.h"
 
 namespace choreo::studio {
 namespace {
-
-authoring::Counts CountsOf(const authoring::Project& project, const Song* song) {
-  if (!project.beats.empty()) return authoring::CountsFrom(project.beats, project.ones);
-  return song ? authoring::CountsOf(song->music) : authoring::Counts();
-}
 
 client::EditOptions EditOptionsFor(const StudioContext& context, const Song* song,
                                    const client::DanceConfig& config) {
@@ -49,28 +44,30 @@ client::Gap GapOf(const Retake& request, const ProjectDance& dance, double fps) 
 
 }  // namespace
 
+authoring::Counts CountsOf(const authoring::Project& project, const Song* song) {
+  if (!project.beats.empty()) return authoring::CountsFrom(project.beats, project.ones);
+  return song ? authoring::CountsOf(song->music) : authoring::Counts();
+}
+
 Error ProjectDance::InTermsOf(const Error& error) const {
   if (error.field() == "config.style") return error.Of(std::string(kUnnamed) + ":style");
   return authoring::InTermsOf(keys, controls.InTermsOf(error));
 }
 
 ProjectDance DanceOf(const StudioContext& context, const authoring::Project& project,
-                     const nlohmann::json& file, double seconds, const Song* song) {
+                     double seconds, const Song* song) {
   const client::ModelDescription& model = context.model();
-  const authoring::Counts counts = CountsOf(project, song);
-  ProjectDance dance{.controls = project.controls};
+  ProjectDance dance{.keys = project.keys, .controls = project.controls};
   client::DanceConfig& config = dance.config;
   config.seed = project.seed.value_or(0);
   project.SetIn(&config);
   config.frames = std::max<int64_t>(1, std::llround(seconds * model.fps));
-  config.controls = project.controls.Read(model, context.server(), counts);
+  config.controls = project.controls.Read(model, context.server(), CountsOf(project, song));
   if (song) {
     config.music_beats = project.beats;
     config.music_downbeats = project.downbeats;
     authoring::ConfigureMusic(song->music, seconds, &config);
   }
-  if (!project.has_keys) return dance;
-  dance.keys.poses = authoring::KeysIn(file, kUnnamed, model.skeleton, &dance.keys.places, counts);
   for (size_t i = 0; i < dance.keys.poses.size(); ++i)
     authoring::FitIntoDance({*config.frames, model.fps}, dance.keys.places[i],
                             &dance.keys.poses[i]);
@@ -79,12 +76,11 @@ ProjectDance DanceOf(const StudioContext& context, const authoring::Project& pro
 }
 
 ProjectDance DanceOf(const StudioContext& context, const Project& project, const Song* song) {
-  const nlohmann::json file = ProjectJson(context, project);
-  const authoring::Project read = authoring::ParseProject(file, kUnnamed);
+  const authoring::Project read = FromPage(project, context.model());
   if (!song && !read.seconds)
     throw InvalidArgument(std::string(kUnnamed) + ":seconds", "is missing, and there is no song");
   const double most = song ? song->heard.seconds() : *read.seconds;
-  return DanceOf(context, read, file, std::min(most, read.seconds.value_or(most)), song);
+  return DanceOf(context, read, std::min(most, read.seconds.value_or(most)), song);
 }
 
 Response MakeTakes(const StudioContext& context, const Song* song, const Retake& request) {

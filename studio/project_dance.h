@@ -1,6 +1,5 @@
 #pragma once
 
-#include <nlohmann/json.hpp>
 #include <string>
 
 #include "client/authoring/dance_keys.h"
@@ -20,9 +19,12 @@ struct ProjectDance {
   Error InTermsOf(const Error& error) const;
 };
 
+/// The counts of the project's own beats or else of the song, which may be null.
+authoring::Counts CountsOf(const authoring::Project& project, const Song* song);
+
 /// `seconds`: the dance's length. `song`: the dance's music, or null. Errors name `kUnnamed`.
 ProjectDance DanceOf(const StudioContext& context, const authoring::Project& project,
-                     const nlohmann::json& file, double seconds, const Song* song);
+                     double seconds, const Song* song);
 /// The page's project. Without `seconds` it lasts as long as its music.
 ProjectDance DanceOf(const StudioContext& context, const Project& project, const Song* song);
 

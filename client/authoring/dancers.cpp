@@ -18,11 +18,14 @@ using nlohmann::json;
 constexpr double kMaxApart = 10;   // metres
 constexpr double kFullTurn = 360;  // degrees
 
-double NumberIn(const json& value, const std::string& field, double low, double high) {
-  const double number = JsonNumber(value, field);
-  if (number >= low && number <= high) return number;
+void RequireIn(double number, const std::string& field, double low, double high) {
+  if (number >= low && number <= high) return;
   throw InvalidArgument(
-      field, Shown(value) + " is not a number from " + InFull(low) + " to " + InFull(high));
+      field, InFull(number) + " is not a number from " + InFull(low) + " to " + InFull(high));
+}
+
+std::string FieldOfDancer(const std::string& name, size_t i) {
+  return name + ":dancers[" + std::to_string(i) + "]";
 }
 
 std::string TextOf(const json& value, const std::string& field) {
@@ -30,21 +33,19 @@ std::string TextOf(const json& value, const std::string& field) {
   throw InvalidArgument(field, Shown(value) + " is not a text");
 }
 
-/// Reads a dancer's id, which becomes part of the names of files and nodes.
-std::string IdOf(const json& value, const std::string& field) {
-  const std::string id = TextOf(value, field);
+/// Checks a dancer's id, which becomes part of the names of files and nodes.
+void CheckId(const std::string& id, const std::string& field) {
+  if (id.empty()) throw InvalidArgument(field, "is empty");
   for (const char c : id) {
     if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '_' && c != '-')
-      throw InvalidArgument(field, Shown(value) + " has more than letters, digits, _ and -");
+      throw InvalidArgument(field, Shown(json(id)) + " has more than letters, digits, _ and -");
   }
-  return id;
 }
 
 Eigen::Vector2d PlaceOf(const json& value, const std::string& field) {
   if (!value.is_array() || value.size() != 2)
     throw InvalidArgument(field, Shown(value) + " is not a place: [x, z] in metres");
-  return {NumberIn(value[0], field + "[0]", -kMaxStageRadius, kMaxStageRadius),
-          NumberIn(value[1], field + "[1]", -kMaxStageRadius, kMaxStageRadius)};
+  return {JsonNumber(value[0], field + "[0]"), JsonNumber(value[1], field + "[1]")};
 }
 
 std::vector<std::string> Keyframes(const json& value, const std::string& field,
@@ -68,9 +69,9 @@ Dancer ReadDancer(const json& value, const std::string& field, size_t number,
   if (!value.contains("place")) throw InvalidArgument(field + ".place", "is missing: [x, z]");
   Dancer dancer{.id = "dancer" + std::to_string(number)};
   dancer.place = PlaceOf(value["place"], field + ".place");
-  if (value.contains("id")) dancer.id = IdOf(value["id"], field + ".id");
+  if (value.contains("id")) dancer.id = TextOf(value["id"], field + ".id");
   if (value.contains("facing") && !value["facing"].is_string())
-    dancer.facing = NumberIn(value["facing"], field + ".facing", -kFullTurn, kFullTurn);
+    dancer.facing = JsonNumber(value["facing"], field + ".facing");
   if (value.contains("mirrored")) {
     if (!value["mirrored"].is_boolean())
       throw InvalidArgument(field + ".mirrored",
@@ -103,7 +104,7 @@ void FaceEachOther(const json& list, const std::string& name, std::vector<Dancer
     const auto other =
         std::ranges::find(*dancers, list[i]["facing"].get<std::string>(), &Dancer::id);
     if (other == dancers->end() || other->id == dancer.id) {
-      throw InvalidArgument(name + ":dancers[" + std::to_string(i) + "].facing",
+      throw InvalidArgument(FieldOfDancer(name, i) + ".facing",
                             Shown(list[i]["facing"]) + " is none of the other dancers");
     }
     const Eigen::Vector2d way = other->place - dancer.place;
@@ -113,6 +114,33 @@ void FaceEachOther(const json& list, const std::string& name, std::vector<Dancer
 
 }  // namespace
 
+void CheckDancers(const Dancers& stage, const std::string& name) {
+  const std::vector<Dancer>& dancers = stage.dancers;
+  RequireIn(stage.apart, name + ":apart", 0, kMaxApart);
+  if (dancers.size() > kMaxDancers) {
+    throw InvalidArgument(name + ":dancers", "are " + std::to_string(dancers.size()) +
+                                                 ", must be up to " + std::to_string(kMaxDancers));
+  }
+  for (size_t i = 0; i < dancers.size(); ++i) {
+    const std::string& id = dancers[i].id;
+    const Eigen::Vector2d& place = dancers[i].place;
+    const std::string field = FieldOfDancer(name, i);
+    CheckId(id, field + ".id");
+    RequireIn(dancers[i].facing, field + ".facing", -kFullTurn, kFullTurn);
+    for (int axis = 0; axis < 2; ++axis)
+      RequireIn(place[axis], field + ".place[" + std::to_string(axis) + "]", -kMaxStageRadius,
+                kMaxStageRadius);
+    for (size_t j = 0; j < i; ++j) {
+      if (dancers[j].id == id)
+        throw InvalidArgument(field + ".id", "\"" + id + "\" is an earlier dancer's already");
+      if (dancers[j].place == place) {
+        throw InvalidArgument(field + ".place", "[" + InFull(place.x()) + "," + InFull(place.y()) +
+                                                    "] is where " + dancers[j].id + " stands");
+      }
+    }
+  }
+}
+
 Dancers ParseDancers(const json& file, const std::string& name,
                      const std::filesystem::path& folder) {
   const json& list = ListIn(file, name, "dancers");
@@ -121,25 +149,11 @@ Dancers ParseDancers(const json& file, const std::string& name,
     CheckFileMembers(file, name, {"dancers", "apart", "about"},
                      "a file of dancers has dancers, and perhaps apart and about");
   }
-  if (list.size() > kMaxDancers) {
-    throw InvalidArgument(name + ":dancers", "are " + std::to_string(list.size()) +
-                                                 ", must be up to " + std::to_string(kMaxDancers));
-  }
-  Dancers read{.dancers = {}, .apart = kUsuallyApart};
-  if (file.contains("apart")) read.apart = NumberIn(file["apart"], name + ":apart", 0, kMaxApart);
-  for (size_t i = 0; i < list.size(); ++i) {
-    const std::string field = name + ":dancers[" + std::to_string(i) + "]";
-    const Dancer& dancer = read.dancers.emplace_back(ReadDancer(list[i], field, i + 1, folder));
-    for (size_t j = 0; j < i; ++j) {
-      if (read.dancers[j].id == dancer.id)
-        throw InvalidArgument(field + ".id",
-                              "\"" + dancer.id + "\" is an earlier dancer's already");
-      if (read.dancers[j].place == dancer.place) {
-        throw InvalidArgument(field + ".place", Shown(list[i]["place"]) + " is where " +
-                                                    read.dancers[j].id + " stands");
-      }
-    }
-  }
+  Dancers read;
+  if (file.contains("apart")) read.apart = JsonNumber(file["apart"], name + ":apart");
+  for (size_t i = 0; i < list.size(); ++i)
+    read.dancers.push_back(ReadDancer(list[i], FieldOfDancer(name, i), i + 1, folder));
+  CheckDancers(read, name);
   FaceEachOther(list, name, &read.dancers);
   return read;
 }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "client/authoring/counts.h"
+#include "client/authoring/dance_keys.h"
 
 namespace choreo::authoring {
 
@@ -27,17 +28,21 @@ struct Dancer {
   std::optional<uint64_t> seed = {};
   std::string style = {};
   std::vector<std::string> keyframes = {};  ///< own keys: sources for ReadKeys (key_file.h)
+  std::optional<DanceKeys> own_keys = {};   ///< of a Project: what `keyframes` say
 };
 
 /// The dancers of a file; docs/dancers.md describes it.
 struct Dancers {
-  std::vector<Dancer> dancers;
-  double apart = 0;  ///< least distance between two bodies, metres
+  std::vector<Dancer> dancers = {};
+  double apart = kUsuallyApart;  ///< least distance between two bodies, metres
 };
 
-/// Reads dancers from a parsed dancers' file or project (project_file.h). Paths of key
-/// files are relative to `folder`. Throws Error(kInvalidArgument) whose field is
+/// Checks ids, places and angles. Throws Error(kInvalidArgument) whose field is
 /// NAME:dancers[i].MEMBER, naming value and limit.
+void CheckDancers(const Dancers& stage, const std::string& name);
+
+/// Reads dancers from a parsed dancers' file or project (project_file.h). Paths of key
+/// files are relative to `folder`. Throws as CheckDancers does.
 Dancers ParseDancers(const nlohmann::json& file, const std::string& name,
                      const std::filesystem::path& folder);
 /// Reads dancers from a file. Throws as ParseDancers does, and Error(kNotFound) if the file does

@@ -167,28 +167,36 @@ std::vector<KeyPose> KeysIn(const json& file, const std::string& name, const Ske
                             std::vector<std::string>* places, const Counts& counts) {
   const json& list = ListIn(file, name, "keyframes");
   std::vector<KeyPose> keys;
-  std::set<std::string> ids;
-  if (places) places->clear();
+  std::vector<std::string> own_places;
+  if (!places) places = &own_places;
+  places->clear();
   for (size_t i = 0; i < list.size(); ++i) {
     const std::string field = name + ":keyframes[" + std::to_string(i) + "]";
     keys.push_back(ParseKey(list[i], field, skeleton, counts, i + 1));
-    if (!ids.insert(keys.back().id).second) {
-      throw InvalidArgument(field + ".id",
-                            "\"" + keys.back().id + "\" is already the id of an earlier key");
-    }
     if (list[i].contains("hold")) {
-      if (!list[i].contains("time")) throw InvalidArgument(field + kHold, "goes with time");
+      if (!list[i].contains("time")) throw InvalidArgument(HoldOf(field), "goes with time");
       const double from = keys.back().time_s;
       const double seconds =
-          JsonTime(list[i]["hold"], field + kHold).After(from, counts, field + kHold) - from;
-      std::ranges::copy(Holding(&keys.back(), seconds, field + kHold), std::back_inserter(keys));
+          JsonTime(list[i]["hold"], HoldOf(field)).After(from, counts, HoldOf(field)) - from;
+      std::ranges::copy(Holding(&keys.back(), seconds, HoldOf(field)), std::back_inserter(keys));
     }
-    if (!places) continue;
     places->push_back(field);
-    places->resize(keys.size(), field + kHold);
+    places->resize(keys.size(), HoldOf(field));
   }
+  RequireOwnIds(keys, *places);
   return keys;
 }
+
+void RequireOwnIds(const std::vector<KeyPose>& keys, const std::vector<std::string>& places) {
+  std::set<std::string> ids;
+  for (size_t i = 0; i < keys.size(); ++i) {
+    if (IsHeld(places[i]) || ids.insert(keys[i].id).second) continue;
+    throw InvalidArgument(places[i] + ".id",
+                          "\"" + keys[i].id + "\" is already the id of an earlier key");
+  }
+}
+
+std::string HoldOf(const std::string& place) { return place + kHold; }
 
 bool IsHeld(const std::string& place) { return place.ends_with(kHold); }
 

@@ -45,6 +45,10 @@ std::vector<client::KeyPose> KeysIn(const nlohmann::json& file, const std::strin
                                     const Skeleton& skeleton, std::vector<std::string>* places,
                                     const Counts& counts);
 
+/// Throws Error(kInvalidArgument), whose field is the key's place, for two keys with one id.
+void RequireOwnIds(const std::vector<client::KeyPose>& keys,
+                   const std::vector<std::string>& places);
+
 /// Returns keys that hold the pose of `key` for `seconds`, so close together that the dancer only
 /// settles between them. Uses the key's time, not its frame. Sets the key's hit to kUsualHit, in
 /// which the dancer comes to rest, unless it has one. Throws Error(kInvalidArgument, field) for
@@ -52,6 +56,8 @@ std::vector<client::KeyPose> KeysIn(const nlohmann::json& file, const std::strin
 std::vector<client::KeyPose> Holding(client::KeyPose* key, double seconds,
                                      const std::string& field);
 
+/// The place of the keys that hold the pose of the key at `place`.
+std::string HoldOf(const std::string& place);
 /// Whether the key at this place only holds the previous one's pose.
 bool IsHeld(const std::string& place);
 

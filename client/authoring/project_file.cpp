@@ -16,13 +16,16 @@ namespace {
 
 using nlohmann::json;
 
-constexpr int kFormat = 1;
-
 std::string Text(const json& file, const std::string& name, const char* member) {
   if (!file.contains(member)) return {};
   if (!file[member].is_string())
     throw InvalidArgument(name + ":" + member, Shown(file[member]) + " is not a text");
   return file[member].get<std::string>();
+}
+
+std::optional<double> NumberIn(const json& file, const std::string& name, const char* member) {
+  if (!file.contains(member)) return std::nullopt;
+  return JsonNumber(file[member], name + ":" + member);
 }
 
 /// Reads a setting of the manner if the project states it.
@@ -32,11 +35,18 @@ struct SettingReader {
 
   void operator()(const char* member, std::string& text) const { text = Text(file, name, member); }
   void operator()(const char* member, std::optional<double>& share) const {
-    if (!file.contains(member)) return;
-    const std::string field = name + ":" + member;
-    share = JsonNumber(file[member], field);
-    if (!(*share >= 0 && *share <= 1))
-      throw InvalidArgument(field, Shown(file[member]) + " is not a number from 0 to 1");
+    share = NumberIn(file, name, member);
+  }
+};
+
+/// Throws unless a stated setting is a share.
+struct SettingCheck {
+  const std::string& name;
+
+  void operator()(const char*, const std::string&) const {}
+  void operator()(const char* member, const std::optional<double>& share) const {
+    if (share && !(*share >= 0 && *share <= 1))
+      throw InvalidArgument(name + ":" + member, InFull(*share) + " is not a number from 0 to 1");
   }
 };
 
@@ -45,23 +55,21 @@ bool IsCount(const json& value) {
          value.get<uint64_t>() <= kMaxBeatsInBar;
 }
 
-/// Reads beats, [[0.52, 1], [1.02, 2], ...]: seconds and counts. Counts may continue over several
-/// bars.
-void ReadBeats(const json& list, const std::string& field, Project* project) {
-  if (!list.is_array()) throw InvalidArgument(field, Shown(list) + " is not a list");
-  std::vector<double>& out = project->beats;
+/// Reads beats, [[0.52, 1], [1.02, 2], ...]: seconds and counts.
+void ReadBeats(const json& list, int bar, const std::string& name, Project* project) {
+  if (!list.is_array()) throw InvalidArgument(name + ":beats", Shown(list) + " is not a list");
+  std::vector<double> seconds;
+  std::vector<int> counts;
   for (const json& beat : list) {
-    const std::string at = field + "[" + std::to_string(out.size()) + "]";
+    const std::string at = name + ":beats[" + std::to_string(seconds.size()) + "]";
     if (!beat.is_array() || beat.size() != 2 || !IsCount(beat[1])) {
       throw InvalidArgument(at, Shown(beat) + " is not a beat: its second and its count, 1 to " +
                                     std::to_string(kMaxBeatsInBar) + ", as in [12.5, 1]");
     }
-    out.push_back(JsonNumber(beat[0], at));
-    const int count = project->counts.emplace_back(beat[1].get<int>());
-    if ((count - 1) % project->bar == 0) project->downbeats.push_back(out.back());
-    if (count == 1) project->ones.push_back(out.back());
+    seconds.push_back(JsonNumber(beat[0], at));
+    counts.push_back(beat[1].get<int>());
   }
-  CheckBeats(out, field);
+  project->SetBeats(std::move(seconds), std::move(counts), bar, name);
 }
 
 const json& Object(const json& value, const std::string& field) {
@@ -122,36 +130,24 @@ std::vector<Marker> MarkersIn(const json& list, const std::string& field) {
     CheckMembers(list[i], at, {"time", "name"}, "a marker has time and name");
     for (const char* member : {"time", "name"})
       if (!list[i].contains(member)) throw InvalidArgument(at + "." + member, "is missing");
-    const std::string marked = Text(list[i], at, "name");
-    if (marked.empty()) throw InvalidArgument(at + ".name", "is empty");
-    const double time = JsonNumber(list[i]["time"], at + ".time");
-    const double before = markers.empty() ? -1 : markers.back().time_s;
-    if (!(time > before && time <= kMaxDanceSeconds)) {
-      throw InvalidArgument(at + ".time", Shown(list[i]["time"]) +
-                                              " is not above the one before it and up to " +
-                                              InFull(kMaxDanceSeconds));
-    }
-    markers.push_back({time, marked});
+    markers.push_back({JsonNumber(list[i]["time"], at + ".time"), Text(list[i], at, "name")});
   }
   return markers;
 }
 
-std::string Readable(const nlohmann::ordered_json& value, const std::string& indent) {
-  using nlohmann::ordered_json;
-  const bool is_flat =
-      std::ranges::none_of(value, [](const ordered_json& part) { return part.is_structured(); });
-  const bool is_line = !indent.empty() && is_flat && (value.is_array() || value.size() < 4);
-  if (!value.is_structured()) return value.dump();
-  const std::string next = is_line ? "" : "\n" + indent + " ";
-  std::string parts;
-  for (const auto& [member, part] : value.items()) {
-    if (!parts.empty()) parts += is_line ? ", " : ",";
-    parts += next;
-    if (value.is_object()) parts += ordered_json(member).dump() + ": ";
-    parts += Readable(part, indent + " ");
+void CheckMarkers(const std::vector<Marker>& markers, const std::string& field) {
+  double before = -1;
+  for (size_t i = 0; i < markers.size(); ++i) {
+    const std::string at = field + "[" + std::to_string(i) + "]";
+    const auto& [time, marked] = markers[i];
+    if (marked.empty()) throw InvalidArgument(at + ".name", "is empty");
+    if (!(time > before && time <= kMaxDanceSeconds)) {
+      throw InvalidArgument(
+          at + ".time",
+          InFull(time) + " is not above the one before it and up to " + InFull(kMaxDanceSeconds));
+    }
+    before = time;
   }
-  if (!is_line) parts += "\n" + indent;
-  return value.is_object() ? "{" + parts + "}" : "[" + parts + "]";
 }
 
 }  // namespace
@@ -164,9 +160,9 @@ Project ParseProject(const json& file, const std::string& name, std::span<const 
     throw InvalidArgument(
         name + ":studio",
         "is missing: a project says \"studio\": 1; a key file goes with choreo dance --keyframes");
-  if (file["studio"] != kFormat) {
+  if (file["studio"] != kProjectFormat) {
     throw InvalidArgument(name + ":studio", "is format " + Shown(file["studio"]) + ", known is " +
-                                                std::to_string(kFormat));
+                                                std::to_string(kProjectFormat));
   }
   // song_data: only in the studio's messages, which contain the song (studio/project_calls).
   CheckFileMembers(
@@ -180,14 +176,7 @@ Project ParseProject(const json& file, const std::string& name, std::span<const 
   project.has_keys = !has_no_keys;
   project.song = Text(file, name, "song");
   DanceManner::VisitSettings(SettingReader{file, name}, project);
-  if (file.contains("seconds")) {
-    project.seconds = JsonNumber(file["seconds"], name + ":seconds");
-    if (!(*project.seconds > 0 && *project.seconds <= kMaxDanceSeconds)) {
-      std::ostringstream message;
-      message << Shown(file["seconds"]) << " is not above 0 and up to " << kMaxDanceSeconds;
-      throw InvalidArgument(name + ":seconds", message.str());
-    }
-  }
+  project.seconds = NumberIn(file, name, "seconds");
   if (file.contains("seed")) {
     if (!file["seed"].is_number_unsigned())
       throw InvalidArgument(name + ":seed",
@@ -198,12 +187,44 @@ Project ParseProject(const json& file, const std::string& name, std::span<const 
     throw InvalidArgument(name + ":bar", Shown(file["bar"]) + " is not a whole number from 1 to " +
                                              std::to_string(kMaxBeatsInBar));
   }
-  project.bar = file.value("bar", kDefaultBar);
-  if (file.contains("beats")) ReadBeats(file["beats"], name + ":beats", &project);
+  if (file.contains("beats"))
+    ReadBeats(file["beats"], file.value("bar", kDefaultBar), name, &project);
   ReadControls(file, name, rows, &project.controls);
   if (file.contains("markers")) project.markers = MarkersIn(file["markers"], name + ":markers");
   project.has_dancers = file.contains("dancers");
+  CheckProject(project, name);
   return project;
+}
+
+void Project::SetBeats(std::vector<double> times, std::vector<int> counted, int in_bar,
+                       const std::string& name) {
+  const auto check = [](int count, const std::string& field) {
+    if (count >= 1 && count <= kMaxBeatsInBar) return;
+    throw InvalidArgument(field, std::to_string(count) + " is not a whole number from 1 to " +
+                                     std::to_string(kMaxBeatsInBar));
+  };
+  check(in_bar, name + ":bar");
+  CheckBeats(times, name + ":beats");
+  if (counted.size() != times.size())
+    throw InvalidArgument(name + ":beats", "and their counts are not equally many");
+  beats = std::move(times);
+  counts = std::move(counted);
+  bar = in_bar;
+  for (size_t i = 0; i < beats.size(); ++i) {
+    check(counts[i], name + ":beats[" + std::to_string(i) + "]");
+    if ((counts[i] - 1) % bar == 0) downbeats.push_back(beats[i]);
+    if (counts[i] == 1) ones.push_back(beats[i]);
+  }
+}
+
+void CheckProject(const Project& project, const std::string& name) {
+  DanceManner::VisitSettings(SettingCheck{name}, project);
+  if (project.seconds && !(*project.seconds > 0 && *project.seconds <= kMaxDanceSeconds)) {
+    throw InvalidArgument(
+        name + ":seconds",
+        InFull(*project.seconds) + " is not above 0 and up to " + InFull(kMaxDanceSeconds));
+  }
+  CheckMarkers(project.markers, name + ":markers");
 }
 
 Project ReadProject(const std::filesystem::path& path) {
@@ -211,10 +232,6 @@ Project ReadProject(const std::filesystem::path& path) {
       ParseProject(ParseJson(ReadText(path, "project"), path.string()), path.string());
   if (!project.song.empty()) project.song = (path.parent_path() / project.song).string();
   return project;
-}
-
-std::string ProjectText(const nlohmann::ordered_json& project) {
-  return Readable(project, "") + "\n";
 }
 
 }  // namespace choreo::authoring

@@ -8,10 +8,14 @@
 #include <string>
 #include <vector>
 
+#include "client/authoring/dance_keys.h"
+#include "client/authoring/dancers.h"
 #include "client/authoring/written_controls.h"
 #include "client/dance_config.h"
 
 namespace choreo::authoring {
+
+inline constexpr int kProjectFormat = 1;  ///< the value of `studio`
 
 /// A named moment of a dance.
 struct Marker {
@@ -19,7 +23,7 @@ struct Marker {
   std::string name;
 };
 
-/// A studio project without its keys, which ReadKeys reads like those of a key file (key_file.h).
+/// A studio project: all inputs of a dance, from a file or the studio's page.
 struct Project : DanceManner {
   std::string song = {};  ///< the file's name; empty: no song
   std::optional<double> seconds = {};
@@ -31,8 +35,18 @@ struct Project : DanceManner {
   std::vector<int> counts = {};   ///< the count of each beat
   std::vector<Marker> markers = {};
   WrittenControls controls = {};
-  bool has_keys = false;     ///< whether there are keys for ReadDanceKeys
-  bool has_dancers = false;  ///< whether there are several dancers, for ReadDancers (dancers.h)
+  bool has_keys = false;     ///< whether a file has keys
+  bool has_dancers = false;  ///< whether a file has several dancers
+  /// What ParseProject leaves empty. Keys need a skeleton, and perhaps the song's counts: KeysIn
+  /// (key_file.h) reads them, and ParseDancers the dancers.
+  DanceKeys keys = {};
+  Dancers stage = {};
+
+  /// Sets the song's beats with their counts, which may continue over several bars, and finds
+  /// those that begin a bar or an eight. Throws Error(kInvalidArgument) whose field begins with
+  /// NAME:beats or NAME:bar.
+  void SetBeats(std::vector<double> times, std::vector<int> counted, int in_bar,
+                const std::string& name);
 };
 
 /// Parses a project: JSON with `studio` (1), `song`, `seconds`, `seed`, a manner's settings except
@@ -40,13 +54,24 @@ struct Project : DanceManner {
 /// (by their names, with the fields of the API's messages), `path` (as in a path file), `lively`
 /// (the velocity factors of parts, in older projects), `markers` (each with `time` and `name`; no
 /// frame depends on them), `dancers` and `apart` (both ignored here), and `keyframes`. `name` is
-/// the file's. Throws Error(kInvalidArgument) whose field is NAME:MEMBER, naming value and limit.
+/// the file's. Throws as CheckProject does.
 Project ParseProject(const nlohmann::json& file, const std::string& name,
                      std::span<const ControlRow> rows = kControls);
 
 /// Reads a project from a file, to which the song's path is relative. Throws as ParseProject does,
 /// and Error(kNotFound) if the project cannot be opened. Does not check that the song exists.
 Project ReadProject(const std::filesystem::path& path);
+
+/// Checks all but beats, controls, keys and dancers. Throws Error(kInvalidArgument) whose field is
+/// NAME:MEMBER, naming value and limit.
+void CheckProject(const Project& project, const std::string& name);
+
+/// The second that a project says for a frame: readable, and read as the same frame.
+double SecondsOf(int64_t frame, double fps);
+
+/// Writes a project, with its keys and dancers, so that each float and each frame stays the same
+/// when it is read. `fps`: the model's.
+nlohmann::ordered_json ProjectJson(const Project& project, const Skeleton& skeleton, double fps);
 
 /// Formats a project for people: short lists and objects, such as vectors and markers, have a line
 /// each.

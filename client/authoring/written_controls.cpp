@@ -16,7 +16,7 @@ bool Has(const client::ModelDescription& model, const std::string& control) {
 }
 
 /// Whether a project's path has the form of a path file instead of the API's message.
-bool HasPoints(const nlohmann::json& path) { return !path.contains("frames"); }
+bool HasPoints(const nlohmann::ordered_json& path) { return !path.contains("frames"); }
 
 ControlRequest::RootPath ReadPath(const nlohmann::json& file, const std::string& name, double fps,
                                   const Counts& counts) {
@@ -96,6 +96,12 @@ void WrittenControls::Follow(const WrittenControls& project) {
     controls_[control].project = written.project;
     controls_[control].project_name = written.project_name;
   }
+}
+
+const nlohmann::ordered_json& WrittenControls::InProject(size_t row) const {
+  static const nlohmann::ordered_json kNone;
+  const auto written = controls_.find(kControls[row].name);
+  return written != controls_.end() ? written->second.project : kNone;
 }
 
 const std::vector<std::string>& WrittenControls::SourcesOf(size_t row) const {

@@ -28,7 +28,7 @@ ControlRequest::RootPath ParsePathFile(std::string_view text, const std::string&
 struct WrittenControl {
   std::vector<std::string> sources = {};  ///< a file; for velocities: sources of ReadVelocities
   std::string reference = {};             ///< of ReadVelocities
-  nlohmann::json project = {};            ///< from ControlJson, or the content of a path file
+  nlohmann::ordered_json project = {};    ///< from ControlJson, or the content of a path file
   std::string project_name = {};          ///< the name of `project` in errors
 
   bool IsGiven() const { return !sources.empty() || !project.is_null() || !reference.empty(); }
@@ -55,6 +55,8 @@ class WrittenControls {
   /// The written control, by its name in kControls.
   WrittenControl& operator[](std::string_view control) { return controls_[std::string(control)]; }
 
+  /// As a project has the control of this row of kControls, or null.
+  const nlohmann::ordered_json& InProject(size_t row) const;
   /// Adds the project's controls that the options do not give.
   void Follow(const WrittenControls& project);
   /// The values of the option of this row of kControls.

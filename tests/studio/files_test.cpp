@@ -12,6 +12,7 @@
 #include "client/convert.h"
 #include "model/audio/music/made_song.h"
 #include "proto/wire/control_messages.h"
+#include "studio/project_dance.h"
 #include "tests/studio/opened_studio.h"
 #include "tests/support/expect_error.h"
 #include "tests/support/music_files.h"
@@ -413,6 +414,54 @@ TEST_F(StudioTest, TheCommandLineReadsTheFloatsThatThePageDances) {
     key.set_frame(authoring::FrameOf(keys.poses[static_cast<size_t>(nth)], model.fps));
     EXPECT_EQ(key.DebugString(), write.write().keys(said).key().DebugString());
   }
+  const ProjectDance danced = DanceOf(studio.context(), write.write(), nullptr);
+  EXPECT_EQ(wire::ToProto(danced.config.controls).DebugString(),
+            wire::ToProto(controls).DebugString());
+  ASSERT_EQ(danced.keys.poses.size(), keys.poses.size());
+  for (size_t i = 0; i < keys.poses.size(); ++i)
+    EXPECT_EQ(client::ToProto(danced.keys.poses[i]).DebugString(),
+              client::ToProto(keys.poses[i]).DebugString());
+}
+
+// Also if it is never written.
+TEST_F(StudioTest, AProjectOfThePageIsCheckedWhenItIsDanced) {
+  const Opened studio(server_.address());
+  Page page(studio.port());
+  const auto refused = [&](const auto& change, const std::string& message) {
+    Request request = DanceRequest(90, 1);
+    Project* project = request.mutable_dance()->mutable_project();
+    *project->add_keys() = OddKey(page.welcome().poses(1), 31);
+    *project->add_keys() = OddKey(page.welcome().poses(2), 71);
+    change(project);
+    EXPECT_THAT(page.Ask(request).failure().message(), HasSubstr(message));
+  };
+  refused([](Project* project) { project->set_variation(1.5); },
+          "project:variation: 1.5 is not a number from 0 to 1");
+  refused([](Project* project) { project->set_seconds(0); },
+          "project:seconds: 0 is not above 0 and up to 3600");
+  refused([](Project* project) { project->mutable_beats()->set_bar(17); },
+          "project:bar: 17 is not a whole number from 1 to 16");
+  refused(
+      [](Project* project) {
+        project->mutable_beats()->set_bar(4);
+        project->mutable_beats()->add_times(1);
+      },
+      "project:beats: and their counts are not equally many");
+  refused([](Project* project) { project->add_markers(); }, "project:markers[0].name: is empty");
+  refused([](Project* project) { project->mutable_keys(0)->set_hold(2000); },
+          "project:keyframes[0].hold: 66.6667 s, must be 0.1 to 60");
+  refused(
+      [](Project* project) {
+        project->mutable_keys(1)->mutable_key()->set_id(project->keys(0).key().id());
+      },
+      "project:keyframes[1].id: ");
+  refused([](Project* project) { project->mutable_keys(1)->mutable_key()->set_frame(99); },
+          "project:keyframes[1].time: ");
+  refused(
+      [](Project* project) {
+        project->mutable_keys(1)->mutable_key()->mutable_pose()->set_rotations(3, 7);
+      },
+      "project:keyframes[1].rotations[");
 }
 
 }  // namespace choreo::studio::files_test

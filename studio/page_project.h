@@ -1,0 +1,27 @@
+#pragma once
+
+#include "client/authoring/project_file.h"
+#include "studio/studio_context.h"
+
+/// Projects as the page's messages. client/authoring/project_file.h reads and writes their files,
+/// for the page has no parser. Floats are preserved in both directions.
+namespace choreo::studio {
+
+inline constexpr const char* kUnnamed = "project";  ///< the name of input in errors
+
+/// Reads a project or a key file, as `choreo dance` does. Throws Error(kInvalidArgument) whose
+/// field is NAME:MEMBER, naming value and limit, and Error(kNotFound) for a dancer's missing keys.
+Response ReadProject(const StudioContext& context, const ProjectFile& request);
+
+/// Writes a project. Refuses projects that ReadProject would refuse, with `kUnnamed` as the file's
+/// name.
+Response WriteProject(const StudioContext& context, const Project& project);
+
+/// The page's project without its dancers, as its file would be read. Throws
+/// Error(kInvalidArgument) whose field is `kUnnamed`:MEMBER.
+authoring::Project FromPage(const Project& message, const client::ModelDescription& model);
+
+/// The dancers of the page's project, without their own keys. Throws as CheckDancers does.
+authoring::Dancers StageOf(const Project& message);
+
+}  // namespace choreo::studio
