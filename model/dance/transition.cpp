@@ -153,7 +153,7 @@ Slices<ProcessedPlan> TransitionRun::DanceOnce(Sampler& sampler) const {
 }
 
 void TransitionRun::SetFrames(const ProcessedPlan& processed) {
-  const auto& [poses, contacts, log_likelihoods] = processed.plan;
+  const auto& [poses, contacts, log_likelihoods, resampled] = processed.plan;
   const ControlCurve& factors = spec_->controls[kVelocityFactors];
   Pose before = before_.back();
   for (size_t at = 0; at < poses.size(); ++at) {

@@ -183,7 +183,8 @@ TEST_F(ArrangeTest, KeysThatCountsMoveAreOnTheirBeatsFrames) {
   const auto beat = [](int count) { return 0.25 + 0.47 * (count - 1); };
   const auto frame = [&](double count) { return std::llround(30 * (0.25 + 0.47 * (count - 1))); };
   std::ofstream beats(folder_ / "beats.txt");
-  for (int count = 1; beat(count) < 10; ++count) beats << beat(count) << ' ' << (count - 1) % 4 + 1 << '\n';
+  for (int count = 1; beat(count) < 10; ++count)
+    beats << beat(count) << ' ' << (count - 1) % 4 + 1 << '\n';
   beats.close();
   const std::string song = "--song " + At("song.wav") + " --beats " + At("beats.txt") + ' ';
   std::ofstream(folder_ / "keys.json")
@@ -191,7 +192,8 @@ TEST_F(ArrangeTest, KeysThatCountsMoveAreOnTheirBeatsFrames) {
                            {"id": "two", "time": 1, "pose": "bow", "place": [0, 0]},
                            {"id": "three", "time": 2, "pose": "dab", "place": [0, 0]}]})";
   std::string set;
-  for (const auto& [id, count] : {std::pair("one", "2c"), std::pair("two", "4c"), std::pair("three", "6.5c")})
+  for (const auto& [id, count] :
+       {std::pair("one", "2c"), std::pair("two", "4c"), std::pair("three", "6.5c")})
     set += "--key " + At("keys.json") + '@' + id + " --at " + count + ' ';
   ASSERT_EQ(Edit("dance", song + set, "set", Server()).code, 0);
   const auto at = [this](const std::string& name, const std::string& id) {

@@ -12,7 +12,7 @@ TEST(RenderCommand, APoseThatIsHeldIsOneKeyOfASheet) {
   const TemporaryFolder folder;
   const auto at = [&](const char* name) { return "'" + (folder / name).string() + "'"; };
   const Skeleton& body = Skeleton::Smpl24();
-  WriteMotion(folder / "d.npz", body, {.fps = 30, .frames = std::vector(91, RestPose(body))});
+  WriteMotion(folder / "d.npz", body, {.fps = 30, .frames = std::vector(16, RestPose(body))});
   const auto draw = [&](const std::string& png, const std::string& held) {
     WriteFile(folder / "r.json",
               R"({"frames": 91, "fps": 30, "keyframes": [{"id": "a", "frame": 30})" + held + "]}");
@@ -30,14 +30,14 @@ TEST(RenderCommand, ARateChoosesTheFramesOfASheet) {
   const TemporaryFolder folder;
   const auto at = [&](const char* name) { return "'" + (folder / name).string() + "'"; };
   const Skeleton& body = Skeleton::Smpl24();
-  WriteMotion(folder / "d.npz", body, {.fps = 30, .frames = std::vector(91, RestPose(body))});
+  WriteMotion(folder / "d.npz", body, {.fps = 30, .frames = std::vector(16, RestPose(body))});
   const auto draw = [&](const std::string& options) {
     const Outcome outcome = Choreo("render " + at("d.npz") + options + " --out " + at("a.png"));
     EXPECT_EQ(outcome.code, 0) << outcome.said;
     return ReadFile(folder / "a.png");
   };
-  EXPECT_EQ(draw(" --rate 1"), draw(" --frames 4"));
-  EXPECT_EQ(draw(" --rate 100"), draw(" --frames 91"));
+  EXPECT_EQ(draw(" --rate 2"), draw(" --frames 2"));
+  EXPECT_EQ(draw(" --rate 100"), draw(" --frames 16"));
   const Outcome both =
       Choreo("render " + at("d.npz") + " --rate 1 --frames 4 --out " + at("a.png"));
   EXPECT_EQ(both.code, 2);

@@ -4,6 +4,7 @@
 
 #include "model/core/error.h"
 #include "model/motion/body_limits.h"
+#include "model/plan/takes.h"
 #include "tests/dance/poses.h"
 #include "tests/support/expect_error.h"
 #include "tests/support/fake_sampler.h"

@@ -8,6 +8,7 @@
 #include "model/engine/packed/kernels.h"
 #include "model/flow/flow_sampler.h"
 #include "model/motion/kinematics.h"
+#include "model/plan/takes.h"
 #include "model/samplers/samplers.h"
 #include "tests/samplers/sampled.h"
 #include "tests/support/expect_error.h"
