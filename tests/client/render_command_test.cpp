@@ -12,7 +12,7 @@ TEST(RenderCommand, APoseThatIsHeldIsOneKeyOfASheet) {
   const TemporaryFolder folder;
   const auto at = [&](const char* name) { return "'" + (folder / name).string() + "'"; };
   const Skeleton& body = Skeleton::Smpl24();
-  WriteMotion(folder / "d.npz", body, {.fps = 30, .frames = std::vector(16, RestPose(body))});
+  WriteMotion(folder / "d.npz", body, {.fps = 30, .frames = std::vector(91, RestPose(body))});
   const auto draw = [&](const std::string& png, const std::string& held) {
     WriteFile(folder / "r.json",
               R"({"frames": 91, "fps": 30, "keyframes": [{"id": "a", "frame": 30})" + held + "]}");
