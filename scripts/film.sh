@@ -32,7 +32,7 @@ scene() {
 }
 
 # Cuts are on downbeats of the song, which plays through.
-cuts=(0 24.922 33.811 42.7 51.589 60.478)
+cuts=(0 24.922 33.811 42.7 51.589 60.478 69.367 78.256 87.145 96.034 104.923 113.812 122.701)
 part() { awk "BEGIN {print ${cuts[$1 + 1]} - ${cuts[$1]}}"; }
 
 dance keys 0 "$(part 0)" --seed 1 --keyframes "$examples/demo.json"
@@ -62,9 +62,50 @@ picture before 320x360
 picture after 320x360
 scene 4 "A kick and a jump put in later: the rest stays" before after
 
+dance company "${cuts[5]}" "$(part 5)" --dancers "$examples/dancers.json"
+"$choreo" render "$scratch"/company.*.npz --song none --video "$scratch/company.mp4" --size 640x360
+scene 5 "Three dancers: one mirrored, one four counts later" company
+
+dance plain "${cuts[6]}" "$(part 6)" --keyframes none
+"$choreo" edit "$scratch/plain.npz" --key high_kick --at 3.556 --hit 3 --song "$song" --song-start "${cuts[6]}" --report "$scratch/plain.json" \
+  --out "$scratch/hit.npz" --new-report "$scratch/hit.json"
+"$choreo" edit "$scratch/plain.npz" --key dab --at 3.556 --hold 1.5 --song "$song" --song-start "${cuts[6]}" --report "$scratch/plain.json" \
+  --out "$scratch/held.npz" --new-report "$scratch/held.json"
+picture hit 320x360
+picture held 320x360
+scene 6 "A key can be hit hard, or held" hit held
+
+echo '{"keyframes": [{"id": "point", "time": 0.6, "pose": "disco_point"}, {"id": "kick", "time": 2.2, "pose": "kick"},
+  {"id": "lunge", "time": 3.8, "pose": "lunge"}]}' > "$scratch/keys.json"
+dance phrase "${cuts[7]}" "$(part 7)" --keyframes "$scratch/keys.json"
+"$choreo" edit "$scratch/phrase.npz" --report "$scratch/phrase.json" --repeat 0 4.4 4.444 --mirror-phrase 4.444 8.8 \
+  --out "$scratch/again.npz" --new-report "$scratch/again.json"
+picture again 640x360
+scene 7 "A phrase of keys, then the same phrase mirrored" again
+
+for dynamics in 0 1; do
+  dance dynamics$dynamics "${cuts[8]}" "$(part 8)" --keyframes none --music-dynamics $dynamics
+  picture dynamics$dynamics 320x360
+done
+scene 8 "The music's loudness: not followed, followed fully" dynamics0 dynamics1
+
+for tempo in half double; do
+  dance $tempo "${cuts[9]}" "$(part 9)" --keyframes none --$tempo-time
+  picture $tempo 320x360
+done
+scene 9 "The same beats in half time, in double time" half double
+
+ffmpeg -v error -y -loop 1 -i "$(dirname "$0")/../docs/images/studio.jpg" -t "$(part 10)" -r 30 \
+  -vf "scale=-2:300,pad=640:360:(ow-iw)/2:50:color=white" "$scratch/studio.mp4"
+scene 10 "The studio, in the browser: drop a song, pull a pose" studio
+
+dance bow "${cuts[11]}" "$(part 11)" --keyframes none --end bow
+picture bow 640x360
+scene 11 "Let it end with a bow" bow
+
 ffmpeg -v error -y -f concat -i "$scratch/scenes.txt" -i "$song" -map 0:v -map 1:a -t "${cuts[-1]}" \
   -metadata comment="Song: Escape from chaosland, (c) 2006/2007 Carlos Viola Iborra, MIT licence" \
-  -c:v libvpx-vp9 -crf 36 -b:v 0 -deadline good -cpu-used 4 -row-mt 1 -c:a libopus -b:a 80k "$2"
+  -c:v libvpx-vp9 -crf 44 -b:v 0 -deadline good -cpu-used 4 -row-mt 1 -c:a libopus -b:a 64k "$2"
 bytes=$(stat -c %s "$2")
 ((bytes <= 4 << 20)) || { echo "film.sh: $2 is $bytes bytes, more than 4 MiB" >&2; exit 1; }
 ffmpeg -v error -y -ss 5.3 -i "$2" -frames:v 1 -q:v 6 "${2%.webm}.jpg"
