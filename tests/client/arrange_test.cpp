@@ -181,7 +181,9 @@ TEST_F(ArrangeTest, RepeatsAPhraseOnItsCounts) {
 // A beat lasts 14.1 frames, so beats are rounded to frames: up, down, and up again after eight.
 TEST_F(ArrangeTest, KeysThatCountsMoveAreOnTheirBeatsFrames) {
   const auto beat = [](int count) { return 0.25 + 0.47 * (count - 1); };
-  const auto frame = [&](double count) { return std::llround(30 * (0.25 + 0.47 * (count - 1))); };
+  const auto frame = [](double count) -> int64_t {
+    return std::llround(30 * (0.25 + 0.47 * (count - 1)));
+  };
   std::ofstream beats(folder_ / "beats.txt");
   for (int count = 1; beat(count) < 10; ++count)
     beats << beat(count) << ' ' << (count - 1) % 4 + 1 << '\n';
