@@ -53,9 +53,11 @@ void DanceSettings::Check(const std::string& place) const {
     if (!value || (*value >= 0 && *value <= most)) return;
     throw InvalidArgument(place + member, InFull(*value) + " is not within 0 to " + InFull(most));
   };
-  check("temperature", temperature, kMaxTemperature);
-  check("music_dynamics", music_dynamics, 1);
-  check("variation", variation, 1);
+  const auto check_setting = [&](const char* member, const auto& value) {
+    if constexpr (requires { value.has_value(); })
+      check(member, value, std::string_view(member) == "temperature" ? kMaxTemperature : 1);
+  };
+  DanceManner::VisitSettings(check_setting, *this);
   check("song_start", song_start_s, authoring::kMaxSeconds);
   CheckBeats(beats, place + "music_beats");
   CheckDownbeats(downbeats, beats, place + "music_downbeats");
