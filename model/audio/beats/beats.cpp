@@ -205,12 +205,7 @@ Path PathOf(std::span<const Onset> onsets, MusicExtent extent, const TempoLimits
   if (halves.Period() >= slow) {
     const double alike = extent == MusicExtent::kWhole ? kAlike : kAlikeInStretch;
     if (halves.AreAlike(alike) || halves.AreAlikeButForAccent(alike)) return Doubled(path, slow);
-  }
-  // A snare between two bass drums is a backbeat at any tempo; live music is too short to tell.
-  const double fastest_backbeat = extent == MusicExtent::kWhole ? limits.fastest_bpm : fastest;
-  const int backbeat = static_cast<int>(std::ceil(2 * 60 * kOnsetRate / fastest_backbeat - 0.5));
-  if (halves.Period() >= backbeat) {
-    if (const int snare = halves.SnareHalf(); snare >= 0) return Doubled(path, backbeat, 1 - snare);
+    if (const int snare = halves.SnareHalf(); snare >= 0) return Doubled(path, slow, 1 - snare);
   }
   const Meter meter = halves.MeterOf();
   if (meter == Meter::kFour)
