@@ -86,7 +86,7 @@ class CleanupTest : public ServerTest, public testing::WithParamInterface<std::t
       if (end != End::kError && end != End::kDeadline) {
         ASSERT_TRUE(reader->Read(&response));
       }
-      if (end == End::kDeadline) std::this_thread::sleep_until(context.deadline());
+      if (end == End::kDeadline) std::this_thread::sleep_for(2 * *deadline);
       if (end == End::kCancel) context.TryCancel();
       if (end == End::kShutdown) server->Drain(0);
       if (end == End::kClientGone) proxy.reset();
@@ -116,7 +116,7 @@ class CleanupTest : public ServerTest, public testing::WithParamInterface<std::t
       }
     }
     if (end == End::kError) client.Send(config);
-    if (end == End::kDeadline) std::this_thread::sleep_until(client.context.deadline());
+    if (end == End::kDeadline) std::this_thread::sleep_for(2 * *deadline);
     const Answer& answer = finish(client, [&] { client.context.TryCancel(); });
     EXPECT_EQ(answer.status.ok(), end == End::kSuccess) << answer.status.error_message();
   }
