@@ -11,7 +11,7 @@
 namespace choreo {
 
 BodyWatch::BodyWatch(const Skeleton& skeleton, double fps, const std::optional<Pose>& before)
-    : skeleton_(skeleton), fps_(fps), clearance_(FloorClearance(skeleton)), slides_(skeleton, fps) {
+    : skeleton_(skeleton), fps_(fps), clearance_(FloorClearance(skeleton)) {
   if (before) last_ = JointPositions(skeleton, *before);
 }
 
@@ -27,7 +27,6 @@ void BodyWatch::Add(int64_t frame, const Pose& pose) {
     Eigen::Index joint = 0;
     const double m_per_s = (now - *last_).colwise().norm().maxCoeff(&joint) * fps_;
     if (m_per_s > fastest_.m_per_s) fastest_ = {m_per_s, joint, frame};
-    slides_.Add(frame, *last_, now);
   }
   WatchFlight(frame, now);
   last_ = std::move(now);
@@ -52,19 +51,8 @@ void BodyWatch::WarnOfFlight(int64_t frames) {
   flights_.push_back(FlightTooLong(*aloft_from_, seconds, key_id_));
 }
 
-std::vector<Warning> BodyWatch::Slides() {
-  std::vector<Warning> warnings;
-  for (const FootSlide& slide : slides_.Take()) warnings.push_back(FootSlides(skeleton_, slide));
-  return warnings;
-}
-
-std::vector<Warning> BodyWatch::TakeLast() {
-  slides_.End();
-  return Slides();
-}
-
 std::vector<Warning> BodyWatch::Take() {
-  std::vector<Warning> warnings = Slides();
+  std::vector<Warning> warnings;
   if (fastest_.m_per_s > kFastestJoint) {
     warnings.push_back(JointTooFast(skeleton_, fastest_.frame, static_cast<int>(fastest_.joint),
                                     fastest_.m_per_s, key_id_,

@@ -7,15 +7,13 @@
 #include <vector>
 
 #include "model/messages/dance_event.h"
-#include "model/motion/foot_slides.h"
 #include "model/motion/motion.h"
 #include "model/motion/skeleton.h"
 
 namespace choreo {
 
 /// Checks a dance, transition by transition, against the limits of human bodies
-/// (motion/body_limits.h): joint speed and length of flight; and for feet that slide
-/// (motion/foot_slides.h). Not thread-safe.
+/// (motion/body_limits.h): joint speed and length of flight. Not thread-safe.
 class BodyWatch {
  public:
   /// `before`: the pose before the first frame, if any. The skeleton must outlive this object.
@@ -24,16 +22,13 @@ class BodyWatch {
   /// Begins a transition of `frames` frames to the key with this id; an empty id means no key.
   void Begin(const std::string& key_id, int64_t frames);
   void Add(int64_t frame, const Pose& pose);
-  /// Returns warnings about limits exceeded since Begin: one for the fastest step, one for each
-  /// flight, and one for each slide that has ended.
+  /// Returns warnings about limits exceeded since Begin: one for the fastest step, and one for each
+  /// flight.
   std::vector<Warning> Take();
-  /// Returns the warnings about slides under way at the dance's end.
-  std::vector<Warning> TakeLast();
 
  private:
   void WatchFlight(int64_t frame, const Eigen::Matrix3Xd& joints);
   void WarnOfFlight(int64_t frames);
-  std::vector<Warning> Slides();
 
   const Skeleton& skeleton_;
   double fps_;
@@ -50,7 +45,6 @@ class BodyWatch {
   int64_t aloft_ = 0;                  // frames of the present flight so far
   bool told_ = false;                  // whether the present flight's warning was taken
   std::vector<Warning> flights_;
-  SlideWatch slides_;
 };
 
 }  // namespace choreo

@@ -31,8 +31,6 @@ class DanceMeter {
 
   /// Returns warnings about motion beyond the limits of human bodies since Begin.
   std::vector<Warning> TakeWarnings() { return watch_.Take(); }
-  /// Returns those that only the dance's end completes.
-  std::vector<Warning> TakeLastWarnings() { return watch_.TakeLast(); }
   /// The report on all frames so far. `music_beats`: seconds, ascending.
   QualityReport Report(std::span<const double> music_beats) const {
     return quality_.Report(music_beats);

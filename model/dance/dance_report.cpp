@@ -58,7 +58,6 @@ void DanceReport::End(int64_t frame, const DancedState& danced) {
 }
 
 void DanceReport::Summarise(int64_t frame, const ControlTrack& controls) {
-  for (const Warning& warning : meter_.TakeLastWarnings()) Post(warning);
   for (const Warning& warning : controls.BehindEnd(frame)) Post(warning);
   const QualityReport report = meter_.Report(beats_.reported());
   for (const Warning& warning : controls.Missed(report)) Post(warning);

@@ -8,7 +8,6 @@
 #include "model/audio/beats/beats.h"
 #include "model/core/error.h"
 #include "model/core/quantile.h"
-#include "model/motion/foot_slides.h"
 #include "model/motion/kinematic_beats.h"
 #include "model/motion/kinematics.h"
 
@@ -16,6 +15,7 @@ namespace choreo {
 namespace {
 
 constexpr double kToeHeight = 0.05;  // metres
+constexpr double kSkateSpeed = 0.2;  // metres a second
 constexpr int64_t kFramesAroundKey = 2;
 
 }  // namespace
@@ -46,7 +46,7 @@ void QualityMeter::Add(const DanceFrame& frame) {
     bool skates = false;
     for (int toe : {skeleton_.feet[1], skeleton_.feet[3]}) {
       const bool low = now(1, toe) < kToeHeight && before(1, toe) < kToeHeight;
-      skates = skates || (low && std::hypot(step(0, toe), step(2, toe)) * fps_ > kSlideSpeed);
+      skates = skates || (low && std::hypot(step(0, toe), step(2, toe)) * fps_ > kSkateSpeed);
     }
     if (skates) ++skating_steps_;
     if (last_positions_.size() == 2) {

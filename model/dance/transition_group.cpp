@@ -176,10 +176,8 @@ Slices<> TransitionGroup::Impl::Measure(const TransitionRun& run) {
     meter.Reach(reached);
   }
   double strain = 0;
-  std::vector<Warning> warnings = meter.TakeWarnings();
-  std::ranges::move(meter.TakeLastWarnings(), std::back_inserter(warnings));
-  for (Warning& warning : warnings) {
-    if (warning.limit > 0) strain = std::max(strain, warning.figure / warning.limit);
+  for (Warning& warning : meter.TakeWarnings()) {
+    strain = std::max(strain, warning.figure / warning.limit);
     if (request_.candidates > 1)
       warning.message = "candidate " + std::to_string(candidate) + ": " + warning.message;
     calls.emplace_back([warning](GroupSink& sink) { sink.OnWarning(warning); });

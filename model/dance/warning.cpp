@@ -173,15 +173,6 @@ Warning FlightTooLong(int64_t frame, double seconds, const std::string& id) {
           kLongestFlight};
 }
 
-Warning FootSlides(const Skeleton& skeleton, const FootSlide& slide) {
-  return {.frame = slide.first,
-          .message = skeleton.joint_names[static_cast<size_t>(slide.toes)] + " slides " +
-                     std::to_string(std::lround(100 * slide.metres)) + " cm over the floor, from " +
-                     Seconds(slide.first) + " to " + Seconds(slide.last),
-          .code = Warning::Code::kFootSlides,
-          .figure = slide.metres};
-}
-
 Warning VelocityNotMet(int64_t last_frame, const std::string& misses) {
   return {last_frame,
           "parts do not move as their velocity factors request, cm a frame on average: " + misses,

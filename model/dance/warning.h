@@ -8,7 +8,6 @@
 #include "model/dance/spec_poses.h"
 #include "model/messages/continuation.h"
 #include "model/messages/dance_event.h"
-#include "model/motion/foot_slides.h"
 
 namespace choreo {
 
@@ -48,8 +47,6 @@ Warning JointTooFast(const Skeleton& skeleton, int64_t frame, int joint, double 
                      const std::string& id, double seconds);
 /// `frame`: the flight's first frame.
 Warning FlightTooLong(int64_t frame, double seconds, const std::string& id);
-/// The message names the foot, both times and the length of its way.
-Warning FootSlides(const Skeleton& skeleton, const FootSlide& slide);
 /// `misses`: text such as "left_leg 1.69 instead of 0.70" for at least one part, in centimetres per
 /// frame.
 Warning VelocityNotMet(int64_t last_frame, const std::string& misses);

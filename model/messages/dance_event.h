@@ -89,7 +89,6 @@ struct Warning {
     kDanceBehindMusic,    ///< the music ends at `frame`, before the last requested frame
     kJointTooFast,        ///< a joint moves faster than people can, fastest at `frame`
     kFlightTooLong,       ///< from `frame` on nothing touches the floor for longer than people jump
-    kFootSlides,          ///< from `frame` on a foot slides over the floor
     kBeatsBehindMusic,    ///< the music ends at `frame`, before the last given beats
   };
   int64_t frame = 0;
@@ -97,7 +96,7 @@ struct Warning {
   Code code = Code::kUnknown;
   /// Of the key at `frame`, or of the one that the dance is on its way to; empty if about none.
   std::string key_id = {};
-  double figure = 0, limit = 0;  ///< what `message` compares, or its figure alone; else 0
+  double figure = 0, limit = 0;  ///< what `message` compares; 0 if it compares none
 };
 
 /// A Beat comes with the frame that it is in.

@@ -65,29 +65,6 @@ TEST(BodyWatch, AFlightIsToldOnceAcrossTransitions) {
   EXPECT_EQ(told[0].limit, kLongestFlight);
 }
 
-TEST(BodyWatch, ASlideIsToldOnceItEnds) {
-  BodyWatch watch(Body(), kFps, At({0, 0, 0}));
-  watch.Begin("a", 3);
-  for (int64_t frame = 30; frame < 33; ++frame) watch.Add(frame, At({0, 0, 0.02 * (frame - 29)}));
-  EXPECT_TRUE(watch.Take().empty());
-  watch.Begin("b", 30);
-  for (int64_t frame = 33; frame < 36; ++frame) watch.Add(frame, At({0, 0, 0.02 * (frame - 29)}));
-  watch.Add(36, At({0, 0, 0.12}));
-  const std::vector<Warning> told = watch.Take();
-  ASSERT_GE(told.size(), 1U);
-  EXPECT_EQ(told[0].code, Warning::Code::kFootSlides);
-  EXPECT_EQ(told[0].frame, 29);
-  EXPECT_NEAR(told[0].figure, 0.12, 1e-9);
-  EXPECT_THAT(told[0].message,
-              ::testing::MatchesRegex("(left|right)_foot slides 12 cm over the floor, "
-                                      "from 0.97 s to 1.17 s"));
-  EXPECT_TRUE(watch.Take().empty());
-  EXPECT_TRUE(watch.TakeLast().empty());
-  for (int64_t frame = 37; frame < 43; ++frame) watch.Add(frame, At({0, 0, 0.02 * (frame - 30)}));
-  EXPECT_TRUE(watch.Take().empty());
-  EXPECT_GE(watch.TakeLast().size(), 1U);  // the dance ends in it
-}
-
 // A dancer who lies, sits or stands on the hands does not fly.
 TEST(BodyWatch, HandsOnTheFloorAreNoFlight) {
   Pose pose = RestPose(Body());

@@ -57,10 +57,7 @@ class Recorder : public DanceSink {
     Note();
     if (const auto* key = std::get_if<KeyReached>(&event)) recording_.reached.push_back(*key);
     if (const auto* late = std::get_if<KeyRejected>(&event)) recording_.rejected.push_back(*late);
-    // The fake model's feet slide, and a resumed dance tells a slide under way in two parts.
-    if (const auto* warn = std::get_if<Warning>(&event);
-        warn != nullptr && warn->code != Warning::Code::kFootSlides)
-      recording_.warnings.push_back(*warn);
+    if (const auto* warn = std::get_if<Warning>(&event)) recording_.warnings.push_back(*warn);
     if (const auto* beat = std::get_if<Beat>(&event)) recording_.beats.push_back(*beat);
     changed_.notify_all();
   }

@@ -200,9 +200,8 @@ TEST_F(ControlsServerTest, ContradictionsAreWarningsWithTheAmount) {
   for (const v1::Event& event : answer.events) {
     // The key's pose is random, and so is the motion before it.
     const v1::WarningCode code = event.warning().code();
-    const bool is_random = code == v1::WARNING_CODE_KEY_IMPOSSIBLE ||
-                           code == v1::WARNING_CODE_JOINT_TOO_FAST ||
-                           code == v1::WARNING_CODE_FOOT_SLIDES;
+    const bool is_random =
+        code == v1::WARNING_CODE_KEY_IMPOSSIBLE || code == v1::WARNING_CODE_JOINT_TOO_FAST;
     if (event.has_warning() && !is_random) warnings.push_back(event);
   }
   ASSERT_EQ(warnings.size(), 2u);

@@ -62,20 +62,6 @@ std::string KeysText(const WrittenDance& dance) {
                 100 * furthest->correction_m, keys == 1 ? "" : ", the most of all keys");
 }
 
-/// Counts the slides that the warnings list.
-std::string SlidesText(const std::vector<client::Warning>& warnings) {
-  size_t slides = 0;
-  double longest_m = 0;
-  for (const client::Warning& warning : warnings) {
-    if (warning.code != client::Warning::Code::kFootSlides) continue;
-    ++slides;
-    longest_m = std::max(longest_m, warning.figure);
-  }
-  if (slides == 0) return "";
-  return Format("feet slide over the floor %zu time%s, by at most %.0f cm: see the warnings\n",
-                slides, slides == 1 ? "" : "s", 100 * longest_m);
-}
-
 }  // namespace
 
 std::string ReportJson(const WrittenDance& dance) {
@@ -139,7 +125,7 @@ std::string ReportText(const WrittenDance& dance) {
   text += Format("skating in %.1f %% of the steps", 100 * report.skate_ratio);
   if (report.support)
     text += Format(", balanced over her feet in %.0f %% of the frames", 100 * *report.support);
-  text += '\n' + SlidesText(dance.warnings);
+  text += '\n';
   if (!report.part_speeds.empty()) {
     text += "speeds danced (and requested), cm a frame:";
     for (size_t part = 0; part < kBodyParts; ++part) {
