@@ -202,20 +202,30 @@ class Diverging : public Silent {
   }
 };
 
-// So that the check of plans says which frame is not finite.
-TEST(FlowSampler, APlanThatMissesItsEnergyInfinitelyHasPoses) {
-  const auto parts = std::make_shared<const FlowModelParts>(Parts());
+ModelInfo ControlledModel(const FlowModelParts& parts) {
   ModelInfo model;
-  model.skeleton = parts->skeleton;
+  model.skeleton = parts.skeleton;
   model.history_frames = kTau;
   model.controls = ControlNames();
+  return model;
+}
+
+// A second in which each part of the body is asked for 0.05 m a frame.
+TransitionSpec RequestedEnergy() {
   TransitionSpec spec;
   spec.frames = 30;
   spec.history = MakeScene(30).request.history;
   spec.temperature = 1;
   spec.controls[kVelocityFactors].values.setConstant(kBodyParts, spec.frames, 0.05F);
+  return spec;
+}
+
+// So that the check of plans says which frame is not finite.
+TEST(FlowSampler, APlanThatMissesItsEnergyInfinitelyHasPoses) {
+  const auto parts = std::make_shared<const FlowModelParts>(Parts());
+  const ModelInfo model = ControlledModel(*parts);
   ContinuousFlowSampler sampler(model, "cpu", parts, std::make_shared<const Diverging>());
-  EXPECT_EQ(sampler.Begin(ValidSpec(spec, model)).Finish().poses.size(), 30U);
+  EXPECT_EQ(sampler.Begin(ValidSpec(RequestedEnergy(), model)).Finish().poses.size(), 30U);
 }
 
 // Throws an arm about in its first window, and in no other.
@@ -259,15 +269,8 @@ TEST(FlowSampler, RequestedEnergySamplesNoMoreThanTheBudget) {
   FlowModelParts wide = Parts();
   wide.prior = MotionPrior(8 * wide.prior.covariance());  // so that flailing is too fast
   const auto parts = std::make_shared<const FlowModelParts>(wide);
-  ModelInfo model;
-  model.skeleton = parts->skeleton;
-  model.history_frames = kTau;
-  model.controls = ControlNames();
-  TransitionSpec spec;
-  spec.frames = 30;
-  spec.history = MakeScene(30).request.history;
-  spec.temperature = 1;
-  spec.controls[kVelocityFactors].values.setConstant(kBodyParts, spec.frames, 0.05F);
+  const ModelInfo model = ControlledModel(*parts);
+  TransitionSpec spec = RequestedEnergy();
   for (const int spare : {0, 1, 3, kMaxTakes - 1}) {
     const auto always = std::make_shared<const Flailing>(1000);
     ContinuousFlowSampler sampler(model, "cpu", parts, always);

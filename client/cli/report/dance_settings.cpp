@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <iostream>
+#include <string_view>
 
 #include "client/authoring/json_fields.h"
 #include "client/cli/report/report_controls.h"
