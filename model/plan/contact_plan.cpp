@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/motion/body_limits.h"
 #include "model/motion/support.h"
 
 namespace choreo {
@@ -39,6 +40,12 @@ int FallFrames(double height, double speed, double fps) {
   return std::max(1, static_cast<int>(std::ceil(seconds * fps)));
 }
 
+// The time in which a leg lowers its foot from a height, metres, or raises it there. The toes move
+// smoothly (toes_path.h): their highest speed is 15/8 of their mean speed.
+int KickFrames(double height, double fps) {
+  return std::max(1, static_cast<int>(std::ceil(height * 15 / 8 / kFastestJoint * fps)));
+}
+
 bool Carried(const FootTrack& foot, size_t frame) {
   return !foot.carried.empty() && foot.carried[frame];
 }
@@ -53,10 +60,12 @@ class FootPlanner {
         frames_(static_cast<int>(foot.toes.size())),
         step_cost_(options.step_cost),
         shortest_step_(std::max(1, static_cast<int>(std::lround(options.shortest_step * fps)))),
-        first_step_(FallFrames(foot.fall_before, foot.rise_before, fps)),
+        first_step_(std::max(FallFrames(foot.fall_before, foot.rise_before, fps),
+                             KickFrames(foot.height_before, fps))),
         // A kick may be faster than a fall. It takes at most the whole plan.
         last_step_(foot.end == FootTrack::End::kInAir
-                       ? std::min(frames_, FallFrames(foot.fall_after, 0, fps))
+                       ? std::min(frames_, std::max(FallFrames(foot.fall_after, 0, fps),
+                                                    KickFrames(foot.heights.back(), fps)))
                        : 1),
         places_(foot.toes.size()),
         support_(foot.toes.size()) {

@@ -35,9 +35,10 @@ struct FootTrack {
   /// Per frame: whether the floor carries the body without feet, because it sits, lies, kneels or
   /// stands on its hands. No foot then needs to be on the floor. Empty: never.
   std::vector<bool> carried = {};
-  double fall_before = 0;  ///< least fall from the frame before the first ...
-  double rise_before = 0;  ///< ... where it rises at this speed, m/s
-  double fall_after = 0;   ///< least fall after a key in the last frame
+  double height_before = 0;  ///< as `heights`, in the frame before the first
+  double fall_before = 0;    ///< least fall from the frame before the first ...
+  double rise_before = 0;    ///< ... where it rises at this speed, m/s
+  double fall_after = 0;     ///< least fall after a key in the last frame
   End end = End::kOpen;
 };
 

@@ -50,7 +50,7 @@ FootTrack Track(const FootworkContext& context, const Leg& leg, double toes_rest
   const Eigen::Matrix3Xd earlier = JointPositions(
       context.skeleton, history[history.size() - std::min<size_t>(2, history.size())]);
   track.before = before.col(leg.toes);
-  track.fall_before = height(before);
+  track.height_before = track.fall_before = height(before);
   track.fall_after = track.heights.back();
   const double speed = (track.before - earlier.col(leg.toes)).norm() * context.fps;
   track.stood = track.before.y() - toes_rest < kUpHeight && speed < kStillSpeed;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "model/motion/body_limits.h"
 #include "model/plan/toes_path.h"
 
 namespace choreo::contact_plan_test {
@@ -109,6 +110,27 @@ TEST(PlanContacts, AFootInTheAirLandsNoSoonerThanItFalls) {
   const auto stances = PlanContacts(feet, kFps, {});
   ASSERT_EQ(stances[0].size(), 1U);
   EXPECT_EQ(stances[0][0].from, 8);  // sqrt(2 0.3 / 9.81) s
+}
+
+// A body low over the floor has hardly any fall left, even with its feet at the height of its head:
+// a foot once came down from there within two frames, at 20 m/s.
+TEST(PlanContacts, AFootHighUpComesDownNoFasterThanLegsMove) {
+  std::array<FootTrack, 2> feet = {Standing(0.1), Standing(-0.1)};
+  for (FootTrack& foot : feet) {
+    Lift(&foot, 0, 30, 0.9);
+    foot.before.y() += 0.9;
+    foot.height_before = 0.9;
+    foot.stood = false;
+  }
+  const auto stances = PlanContacts(feet, kFps, {});
+  for (size_t side = 0; side < 2; ++side) {
+    const auto path = ToesPath(feet[side], stances[side], 0.02, false, kFps, 0.15);
+    Eigen::Vector3d before = feet[side].before;
+    for (size_t i = 0; i < path.size(); ++i) {
+      EXPECT_LE((path[i] - before).norm() * kFps, kFastestJoint) << "foot " << side << " at " << i;
+      before = path[i];
+    }
+  }
 }
 
 // Falling takes longer than flights may last, so no plan has all it should; a key on the floor once
