@@ -153,7 +153,7 @@ struct TransitionRequest {
 };
 
 struct TransitionCandidate {
-  uint32_t candidate = 0;
+  uint32_t candidate = 0;  ///< its number, 0 to TransitionRequest::candidates - 1
   Motion motion = {};
   std::vector<Contacts> contacts = {};
   Report report = {};

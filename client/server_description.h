@@ -19,16 +19,16 @@ struct ServerDescription {
   int workers = 0;
   int active_streams = 0;
   bool draining = false;  ///< it is stopping, and takes no new dances
-  /// The server's limits.
+  /// The largest values that the server accepts. 0: an older server does not state it.
   struct Limits {
-    int64_t max_message_bytes = 0;
-    double max_audio_s = 0;
-    int64_t max_audio_file_bytes = 0;
-    int max_keyframes = 0;
-    int max_transition_frames = 0;
-    int max_candidates = 0;
-    double max_frame_rate = 0;
-    int max_streams = 0;
+    int64_t max_message_bytes = 0;     ///< of one message
+    double max_audio_s = 0;            ///< of music, from its start
+    int64_t max_audio_file_bytes = 0;  ///< of a music file
+    int max_keyframes = 0;             ///< keys in a dance
+    int max_transition_frames = 0;     ///< of one transition, at the model's rate
+    int max_candidates = 0;            ///< of one transition
+    double max_frame_rate = 0;         ///< of the output, frames per second
+    int max_streams = 0;               ///< concurrent dances and transitions
   } limits;
 };
 

@@ -53,8 +53,8 @@ class DanceStream {
     chain_->Apply([&](DanceScore& score) { return score.NoteMusicDamaged(notes, seconds); });
   }
 
-  /// Sets a key (see Timeline). A key that comes too late causes a KeyRejected event and changes
-  /// nothing.
+  /// Sets a key (see Timeline). A key that comes too late causes a KeyRejected event, and is not
+  /// set.
   void SetKey(const Key& key, const KeyMoment& when) {
     chain_->Apply([&](DanceScore& score) { return score.SetKey(key, when); });
   }

@@ -65,18 +65,23 @@ class Timeline {
   explicit Timeline(Options options);
 
   /// Adds a key at `when`, or replaces the one with its id. `field`: the caller's name for the key,
-  /// for errors, as in "keyframes[3]". Returns a rejection if the key, or the replaced one, is in
-  /// frozen frames. Throws Error(kInvalidArgument) for an empty id, a moment out of range, a frame
-  /// taken by another id, a frame closer than kMinKeyDistance to another key, more than kMaxKeys
-  /// keys, and after Complete. The pose and `hit` must be valid (validation.h).
+  /// for errors, as in "keyframes[3]". Returns a rejection without adding the key if its frame is
+  /// frozen (kTooLate) or the replaced key's is (kFrozen); AfterPrevious then still counts from the
+  /// key. Returns kAlreadyDanced for an added key before Options::first_frame, which grants frames
+  /// as any key does. Throws Error(kInvalidArgument) for an empty id, a moment out of range, a
+  /// frame taken by another id, a frame closer than kMinKeyDistance to another key, more than
+  /// kMaxKeys keys, and after Complete. The pose and `hit` must be valid (validation.h).
   std::optional<KeyRejected> Set(Key key, const KeyMoment& when, const std::string& field);
 
-  /// Rejects an unusable key, and changes nothing. `when`: none if the message has no moment.
+  /// Rejects an unusable key: keys and frames stay, but Remove and Complete know its id as
+  /// rejected. `when`: none if the message has no moment.
   KeyRejected RejectInvalid(const std::string& id, const std::optional<KeyMoment>& when,
                             std::string reason);
 
-  /// Removes a key. Returns a rejection if it is in frozen frames. Throws Error(kNotFound) for an
-  /// id that is not on the timeline, and Error(kInvalidArgument) after Complete.
+  /// Removes a key. Returns a rejection without removing anything if the key's frame is frozen
+  /// (kFrozen) or the key was itself rejected (kRejectedBefore). Returns kAlreadyDanced for a
+  /// removed key before Options::first_frame. Throws Error(kNotFound) for any other id, and
+  /// Error(kInvalidArgument) after Complete.
   std::optional<KeyRejected> Remove(const std::string& id, const std::string& field);
 
   /// The first frame that a message can still change. Throws Error(kInvalidArgument) after
@@ -168,7 +173,7 @@ class Timeline {
   Options options_;
   std::map<int64_t, Key> keys_;  // by frame, including danced keys
   std::unordered_map<std::string, int64_t> frame_of_;
-  std::unordered_map<std::string, int64_t> rejected_;  // id -> frame of keys that only came late
+  std::unordered_map<std::string, int64_t> rejected_;  // id -> frame; those not in keys_
   int64_t previous_frame_ = 0;  // frame of the last keyframe message, for AfterPrevious
   int64_t granted_ = 0;         // by GenerateUntil
   int64_t frontier_ = 0;        // the first frame that is not frozen

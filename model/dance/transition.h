@@ -41,7 +41,7 @@ struct DancedState {
 /// All inputs of a dance's transition. They are values, so later messages do not change them.
 struct TransitionInputs {
   DanceManner manner = {};
-  uint64_t seed = 0;  ///< the dance's seed; the music's identity is added to it
+  uint64_t seed = 0;  ///< the dance's; PrepareTransition XORs it with TransitionMusic::id
   ControlTrack controls;
   Segment segment;
   /// The state before the transition. Without poses it starts from ControlTrack::Stance.

@@ -10,14 +10,15 @@
 /// Reads and writes SMPL motion in npz files: the layouts of AMASS, AIST++ and EDGE, and our own
 /// arrays.
 ///
-/// | file | keys | up | trans |
-/// |---------|--------------------------------------------------------|----|-----------------| |
-/// ours | root_positions [F,3], rotations [F,24,3], fps | y | the pelvis | | AMASS | poses [F,66,
-/// 72, 156 or 165], trans [F,3] | z | pelvis minus J0 | | AMASS | root_orient [F,3], pose_body
-/// [F,63], trans | z | pelvis minus J0 | | smplx | global_orient [F,3], body_pose [F,63 or 69],
-/// transl | z | pelvis minus J0 | | AIST++ | smpl_poses [F,72], smpl_trans, smpl_scaling | y |
-/// pelvis minus J0 | | EDGE | smpl_poses [F,72], smpl_trans | z | the pelvis | | slices | q [F,72],
-/// pos, scale: AIST++ as EDGE cuts it | y | pelvis minus J0 |
+/// | file    | keys                                                   | up | trans           |
+/// |---------|--------------------------------------------------------|----|-----------------|
+/// | ours    | root_positions [F,3], rotations [F,24,3], fps          | y  | the pelvis      |
+/// | AMASS   | poses [F,66, 72, 156 or 165], trans [F,3]              | z  | pelvis minus J0 |
+/// | AMASS   | root_orient [F,3], pose_body [F,63], trans             | z  | pelvis minus J0 |
+/// | smplx   | global_orient [F,3], body_pose [F,63 or 69], transl    | z  | pelvis minus J0 |
+/// | AIST++  | smpl_poses [F,72], smpl_trans, smpl_scaling            | y  | pelvis minus J0 |
+/// | EDGE    | smpl_poses [F,72], smpl_trans                          | z  | the pelvis      |
+/// | slices  | q [F,72], pos, scale: AIST++ as EDGE cuts it           | y  | pelvis minus J0 |
 ///
 /// Other names of poses are fullpose, full_pose, pose and thetas. Rotations are axis-angle,
 /// matrices or 6D (rotation_rows.h). The rate is mocap_framerate, mocap_frame_rate, fps, frame_rate

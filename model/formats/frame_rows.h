@@ -10,14 +10,15 @@
 /// Reads a motion of SMPL's body from one array with a row per frame, as dance networks and data
 /// sets write it. The width of a row determines its kind. Private to this folder.
 ///
-/// | numbers | of | are |
-/// |-----------|-----------|------------------------------------------------------------------| |
-/// 135, 139 | LODGE | (4 contacts,) place, 6D of 22 joints | | 315, 319 | FineDance | the same of
-/// 52 joints | | 151 | EDGE | 4 contacts, place of the pelvis, 6D of 24 joints; Z is up | | 219,
-/// 225 | AIST++ | (6 zeros,) place, matrices of 24 joints, as FACT's repository | | | |
-/// google-research/mint has them (issues 4, 5 and 54) | | 322 | Motion-X | turns of SMPL-X's body,
-/// hands and jaw, a face, place and betas | | 263 | HumanML3D | how the root moves, places seen
-/// from it, 6D, speeds, contacts |
+/// | numbers   | of        | are                                                              |
+/// |-----------|-----------|------------------------------------------------------------------|
+/// | 135, 139  | LODGE     | (4 contacts,) place, 6D of 22 joints                             |
+/// | 315, 319  | FineDance | the same of 52 joints                                            |
+/// | 151       | EDGE      | 4 contacts, place of the pelvis, 6D of 24 joints; Z is up        |
+/// | 219, 225  | AIST++    | (6 zeros,) place, matrices of 24 joints, as FACT's repository    |
+/// |           |           | google-research/mint has them (issues 4, 5 and 54)               |
+/// | 322       | Motion-X  | turns of SMPL-X's body, hands and jaw, a face, place and betas   |
+/// | 263       | HumanML3D | how the root moves, places seen from it, 6D, speeds, contacts    |
 ///
 /// Of HumanML3D only positions are read (joint_arrays.h), because its 6D are not rotations of
 /// SMPL's bones.

@@ -29,15 +29,16 @@ struct KeyReached {
   std::optional<HandPose> hands = {};
 };
 
-/// Says that a message about a key changed nothing: the frames that it would change are frozen, or
-/// it is invalid. Codes have the API's numbers, here and below.
+/// The answer to a message about a key that reaches no frame to come: its frames are frozen or
+/// already danced, or it is invalid. The dance ignores the message, except with kAlreadyDanced.
+/// Codes have the API's numbers, here and below.
 struct KeyRejected {
   enum class Code {
     kUnknown,         ///< from an older server
     kTooLate,         ///< the requested frame is frozen
     kFrozen,          ///< the key of this id is in frozen frames
     kRejectedBefore,  ///< a removal of a key that had been rejected
-    kAlreadyDanced,   ///< the dance resumes from a continuation after the frame
+    kAlreadyDanced,   ///< the dance resumes after the frame; the key is set or removed there
     kInvalid,         ///< the key cannot be used; only where the client asks for this answer
   };
   std::string id = {};
@@ -84,7 +85,7 @@ struct Warning {
     kTemperatureTooHigh,  ///< higher than the model was trained for; `frame` is the first
     kKeyImpossible,       ///< no body can take the pose of the key at `frame`
     kMusicDamaged,        ///< the music's file is damaged or ends early; `frame` is its last
-    kMusicSilent,         ///< nothing is heard in the whole music, whose last frame is `frame`
+    kMusicSilent,         ///< the music is silent, perhaps only as a mix; `frame` is its last
     kKeyBehindMusic,      ///< the key at `frame` is after the music's end
     kDanceBehindMusic,    ///< the music ends at `frame`, before the last requested frame
     kJointTooFast,        ///< a joint moves faster than people can, fastest at `frame`

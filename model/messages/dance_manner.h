@@ -59,8 +59,8 @@ struct KnownMusic {
   /// of each transition from the 12 s of samples before it.
   std::vector<double> music_beats = {};
   std::vector<double> music_downbeats = {};  ///< those that begin a bar; reported, not danced
-  /// Identifies the music (MusicId), as a part of the seed: two songs differ as two seeds do. 0:
-  /// unknown; a server computes it of a file.
+  /// Identifies the music (MusicId). Each transition's seed is the dance's XOR this, so two songs
+  /// differ as two seeds do. 0: unknown; a server computes it for a file.
   uint64_t music_id = 0;
   /// Passages that repeat earlier ones (CheckPassages), and the dance with them. Empty: a server
   /// finds them in a file.
