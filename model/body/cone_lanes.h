@@ -11,8 +11,7 @@ namespace choreo {
 
 /// kLanes cones, one per lane.
 struct ConeLanes {
-  /// Takes 1 to kLanes cones. Copies of the last one fill the remaining lanes, where they hide no
-  /// sky.
+  /// Takes 1 to kLanes cones. Copies of the last one fill the other lanes, and hide no sky there.
   explicit ConeLanes(std::span<const BoundedCone> cones);
   /// The same cone in all lanes.
   explicit ConeLanes(const BoundedCone& cone);

@@ -56,11 +56,11 @@ std::vector<PlacedPart> BuildFigure(const Skeleton& skeleton, const Pose& pose);
 /// sinks in. Throws what BuildFigure throws.
 double DollAboveFloor(const Skeleton& skeleton, const Pose& pose);
 
-/// The parts that may form one piece of skin with part `index`: those of its colour that may meet
+/// The parts that may form one piece of skin with part `index`: they have its colour and may meet
 /// it.
 std::vector<const PlacedPart*> SkinAround(const std::vector<PlacedPart>& parts, size_t index);
 
-/// The normal of a part at `point` on its surface: its `own` normal, blended with those of the
+/// The normal of a part at `point` on its surface: its `own` normal, blended with the normals of
 /// parts in `around` that it meets there.
 Eigen::Vector3f SkinNormal(const std::vector<const PlacedPart*>& around,
                            const Eigen::Vector3f& point, const Eigen::Vector3f& own);

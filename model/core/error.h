@@ -20,7 +20,7 @@ enum class ErrorCode {
   kInternal,
 };
 
-/// What a caller can do about a failure, for those that act on it.
+/// What a caller can do about a failure.
 enum class Remedy {
   kNone,
   kTakePart,  ///< take a part of the sound, which is too long
@@ -50,7 +50,7 @@ class Error : public std::runtime_error {
   }
 
  private:
-  /// Escapes NULs, at the first of which what() would end.
+  /// Escapes NULs, because what() would end at the first one.
   static std::string WithoutNul(std::string text) {
     for (size_t at; (at = text.find('\0')) != std::string::npos;) text.replace(at, 1, "\\x00");
     return text;

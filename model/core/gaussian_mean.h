@@ -5,8 +5,8 @@
 
 namespace choreo {
 
-/// The mean of value(i), first <= i <= last, weighted by a Gaussian centred at i = `centre` with
-/// standard deviation `sigma` > 0. `zero` initialises the sum.
+/// The Gaussian-weighted mean of value(i), first <= i <= last. The Gaussian's centre is i =
+/// `centre`, its standard deviation `sigma` > 0. `zero` initialises the sum.
 template <typename Value, typename ValueAt>
 Value GaussianMean(int64_t first, int64_t last, int64_t centre, double sigma, const Value& zero,
                    const ValueAt& value) {

@@ -23,7 +23,7 @@ inline constexpr size_t kMaxIdLength = 256;  ///< bytes in a key's id
 inline constexpr size_t kMaxFingerprintLength = 1024;  ///< bytes
 
 /// The least silence, seconds, after which a client may treat a server as lost. Clients ping twice
-/// in that time, and servers allow twice as many pings.
+/// in this time; servers allow four pings.
 inline constexpr double kMinSilence = 2;
 
 inline constexpr int kDefaultPort = 50051;  ///< of choreod

@@ -41,7 +41,7 @@ struct NpyParts {
 };
 
 /// Parses the header. The result's `values` point into `bytes`. Throws Error(kInvalidArgument)
-/// whose field is `name` if the header is not that of an .npy file.
+/// whose field is `name` if there is no .npy header.
 NpyParts SplitNpy(std::string_view bytes, const std::string& name);
 /// The inverse of SplitNpy. Always writes C order.
 std::string JoinNpy(const NpyParts& parts);

@@ -12,7 +12,7 @@ std::string Rounded(double value);
 /// make it equal the limit.
 std::string RoundedBeyond(double value, double limit);
 
-/// Formats a number exactly, for refused values and limits, which might look allowed when rounded.
+/// Formats a number exactly: a refused value might look allowed when rounded.
 std::string InFull(double value);
 
 }  // namespace choreo

@@ -4,8 +4,8 @@
 
 namespace choreo {
 
-/// A request that its model can serve. The constructor of a derived type checks it, so code that
-/// takes one does not check it again.
+/// A request that its model can serve. Constructors of derived types check it; code that takes one
+/// need not.
 template <class Request>
 class Valid {
  public:

@@ -19,7 +19,7 @@ namespace choreo {
 /// numbers. The message counts positions from `first_sample`.
 void CheckSamples(std::span<const float> interleaved, int channels, int64_t first_sample);
 
-/// The number of past rows whose sound is kept: as far as a dance looks back.
+/// Past rows whose sound is kept: all that a dance looks back on.
 inline constexpr int kSoundMemory = kDynamicsMemory + kTypicalFrames;
 
 /// Converts samples to what a dance hears: the sound of each row, and the rows of the model's

@@ -24,9 +24,8 @@ class BeatReport {
 
   /// The beats to report with a frame of the current transition. Call once per frame, in order; the
   /// frame's row must be ready. Each beat is reported once, even if two transitions place it on
-  /// different sides of their boundary. If each transition leaves a beat to the other, it is
-  /// reported with the first frame after it. Drops predicted beats once the music has been silent
-  /// for one period.
+  /// both sides of their boundary. A beat that both leave to the other is reported with the first
+  /// frame after it. Drops predicted beats once the music has been silent for one period.
   std::vector<Beat> TakeAt(int64_t frame);
 
   /// The last reported beat, in seconds: all the state needed to resume a dance here.

@@ -33,7 +33,7 @@ class DanceChain : public Delivery<DanceSink> {
   /// the exception propagates and the chain is unchanged. Does nothing once the dance is over.
   void Apply(const std::function<DanceEvents(DanceScore&)>& change);
 
-  // The functions below implement those of DanceStream.
+  // DanceStream's functions of the same names call these.
   void PushAudio(std::span<const float> interleaved, int64_t first_sample);
   void EndOfAudio();
   void HalfClose();

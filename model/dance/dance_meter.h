@@ -31,7 +31,7 @@ class DanceMeter {
 
   /// Returns warnings about motion beyond the limits of human bodies since Begin.
   std::vector<Warning> TakeWarnings() { return watch_.Take(); }
-  /// The report on all frames so far. `music_beats`: seconds, ascending.
+  /// The report on all frames added so far. `music_beats`: seconds, ascending.
   QualityReport Report(std::span<const double> music_beats) const {
     return quality_.Report(music_beats);
   }

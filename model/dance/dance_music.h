@@ -33,8 +33,8 @@ struct TransitionMusic {
 /// Caches the beats heard in a dance's music for transitions that begin in the same second.
 class BeatMemory;
 
-/// What is known of the music when a transition is planned. A value, so later messages do not
-/// change it.
+/// What is known of the music when a transition is planned. A value: later messages do not change
+/// it.
 class PlannedMusic {
  public:
   /// Analyses the music before the transition, and the part within it that the model hears. All
@@ -67,11 +67,11 @@ class PlannedMusic {
 /// The music of a dance as its transitions hear it: beats, energy, turns, and the rows for a model
 /// that hears.
 ///
-/// Beats are given by the client or found in the whole music. A dance that starts without any
-/// detects them: the beats of the 12 s before the last whole second before a transition (HearBeats)
-/// predict the transition's own. The energy is that of the whole song around the transition if
-/// known, otherwise that of the music before the transition. So all results depend only on the
-/// ordered messages and the samples, not on chunks or timing. Not thread-safe.
+/// Beats are given by the client or found in the whole music. Without either, each transition's
+/// beats are predicted (HearBeats) from 12 s of music that end at the last whole second before it.
+/// The energy comes from the whole song around the transition if known, otherwise from the music
+/// before the transition. So results depend only on the ordered messages and the samples, not on
+/// chunks or timing. Not thread-safe.
 class DanceMusic {
  public:
   /// `audio`: the dance's audio; null without music. `detects`: whether to detect beats if none are
@@ -90,7 +90,7 @@ class DanceMusic {
   /// and detected beats between the first and the last of them. Earlier given beats are dropped if
   /// they are after the last, or less than half a beat before the first. Beats before `from` are
   /// late and are dropped; returns their number. `from` must not decrease between calls.
-  /// `downbeats`: the beats that begin a bar. `confidence`: that of a client that predicts beats
+  /// `downbeats`: the beats that begin a bar. `confidence`: set by a client that predicts beats
   /// from this music; otherwise none. Throws Error(kInvalidArgument) beyond kMaxBeats.
   int64_t GiveBeats(std::span<const double> seconds, int64_t from, const std::string& field,
                     std::span<const double> downbeats = {}, std::optional<double> confidence = {});

@@ -21,8 +21,7 @@ inline void PostEvent(Mailbox<DanceSink>& mailbox, const DanceEvent& event) {
   mailbox.Post([event](DanceSink& sink) { sink.OnEvent(event); });
 }
 
-/// Reports to a dance's sink its frames, and what goes with them: beats, keys, continuations and
-/// the summary. Not thread-safe.
+/// Reports a dance's frames, beats, keys, continuations and summary to its sink. Not thread-safe.
 class DanceReport {
  public:
   /// `audio`: null without music. Model, audio and mailbox must outlive this object.

@@ -88,7 +88,7 @@ class DanceScore {
   const int64_t first_frame_;
   const std::optional<int64_t> end_frame_;
   const bool recurs_;                       // whether repeated passages are danced alike
-  std::vector<KeyReached> reached_before_;  // by the resumed dance; not yet reported again
+  std::vector<KeyReached> reached_before_;  // before the dance was resumed; not yet reported again
 };
 
 /// Makes the timeline end transitions where controls change, and warns about controls that come too

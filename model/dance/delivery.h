@@ -17,8 +17,8 @@ namespace choreo {
 
 /// The base of a stream's chain and of a group of candidates. Jobs sample transitions. One thread
 /// at a time hands out their results to the sink, in the order of TakeNext and without the lock.
-/// Thread-safe. Lock order: this lock before those of the queue and the audio feed. The jobs keep
-/// this object alive.
+/// Thread-safe. Lock order: this object's lock, then the queue's and the audio feed's. The jobs
+/// keep this object alive.
 template <class Sink>
 class Delivery : public std::enable_shared_from_this<Delivery<Sink>> {
  public:
@@ -131,7 +131,7 @@ class Delivery : public std::enable_shared_from_this<Delivery<Sink>> {
     }
     HandOutHere();
   }
-  /// Change without a caller to throw to: if it fails, as without memory, ends the dance.
+  /// Like Change, but ends the dance if `change` throws: there is no caller to throw to.
   void React(const std::function<void()>& change) noexcept {
     try {
       Change(change);

@@ -13,8 +13,8 @@ namespace choreo {
 /// The most frames handed out before other dances get a turn or gRPC gets its thread back.
 inline constexpr int kFramesASlice = 16;
 
-/// Takes steps one at a time. The first thread in Run takes them. Other threads return at once, and
-/// the first one checks again for their steps. Guarded by its owner's mutex.
+/// Takes steps one at a time. The first thread in Run takes them all: other threads return at once,
+/// and it takes their steps, too. Guarded by its owner's mutex.
 class Pacer {
  public:
   /// Takes at most `most` steps. `next`, called under `mutex`, returns the next step, or a false

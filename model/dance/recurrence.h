@@ -19,8 +19,8 @@ inline constexpr double kMinReturn_s = 2;
 /// repeats music that begins at least kMinReturn_s earlier, and all are within the longest music.
 void CheckPassages(std::span<const Passage> passages, const std::string& field);
 
-/// Finds the frames of a dance that repeat earlier ones, because their music does, and so share
-/// their noise. Frame numbers are absolute, at the model's rate. Not thread-safe.
+/// Finds the frames of a dance whose music repeats. They share the noise of the frames that they
+/// repeat. Frame numbers are absolute, at the model's rate. Not thread-safe.
 class Recurrence {
  public:
   Recurrence(double fps, std::span<const Passage> passages);
@@ -36,9 +36,9 @@ class Recurrence {
   void Begin(int64_t frame);
   /// The earliest frame that `frame`, in the current transition, repeats; `frame` itself if none.
   int64_t Origin(int64_t frame) const;
-  /// The first frame from `least` on, in the current transition, at which transitions should end so
-  /// that music is divided alike each time it sounds: its origin is a multiple of kTypicalFrames.
-  /// None if it lies farther than kTypicalFrames away, as where short repeats follow each other.
+  /// The first frame from `least` on, in the current transition, at which a transition should end:
+  /// its origin is a multiple of kTypicalFrames, so repeated music is divided alike each time. None
+  /// if there is no such frame within kTypicalFrames, as where short repeats follow each other.
   std::optional<int64_t> NextCut(int64_t least) const;
   /// The origins of the frames [from, to); empty if none repeats another.
   std::vector<int64_t> Origins(int64_t from, int64_t to) const;
@@ -62,8 +62,8 @@ class Recurrence {
 
 /// The frames, ascending, at which transitions without a key should end so that repeated passages
 /// are danced alike: where passages and their originals begin and end, and about every
-/// kTypicalFrames between. Passages and originals are divided alike. So transitions that a key or a
-/// turn of the music has shifted soon match those of the original again.
+/// kTypicalFrames between. Passages and originals are divided alike. So after a key or a turn of
+/// the music shifts transitions, they soon match the original's again.
 std::vector<int64_t> CutsOf(std::span<const Passage> passages, double fps);
 
 }  // namespace choreo

@@ -10,8 +10,8 @@
 /// The start and target poses of a transition, and the speeds needed between them. Pure functions.
 namespace choreo {
 
-/// The average speeds needed to reach a key. By Paper F, Section 5.2, a transition fails if its
-/// interval is too short for the change.
+/// The average speeds needed to reach a key. A transition fails if its interval is too short for
+/// the change (paper F, Section 5.2).
 struct RequiredSpeed {
   double root_m_per_s = 0;
   double joint_rad_per_s = 0;  ///< of the fastest joint
@@ -25,9 +25,9 @@ struct RequiredSpeed {
 /// The speeds needed to reach the spec's target; none without a target. `spec` must have a history.
 std::optional<RequiredSpeed> RequiredSpeedOf(const TransitionSpec& spec, double fps);
 
-/// Whether the dancer only holds her present pose: the target is that pose, at her position or
-/// without one, and comes too soon to dance away and back. A hold does not run the model, and a
-/// path waits. `world`: must have at least one pose of history.
+/// Whether the dancer only holds the present pose: the target is that pose, at the same position or
+/// without one, and too soon to dance away and back. A hold does not run the model; a path waits.
+/// `world`: must have at least one pose of history.
 bool IsHold(const TransitionSpec& world, double fps);
 
 /// Gives a target without a position the position of the path's end, if there is a path. A dancer
@@ -43,7 +43,7 @@ std::vector<Pose> FillHistory(const ModelInfo& model, std::span<const Pose> pose
 Pose RoundToFloat(const Pose& pose);
 
 /// The history in its canonical frame. Rotation vectors grow with each whole turn of a dance. This
-/// shortens those of the last pose, and keeps the earlier ones continuous with it, as in training
+/// shortens the last pose's vectors, and keeps earlier poses continuous with it, as in training
 /// data.
 std::vector<Pose> CanonicalHistory(const GroundFrame& ground, const std::vector<Pose>& world);
 

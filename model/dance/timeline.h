@@ -103,8 +103,8 @@ class Timeline {
   /// would end near such a frame ends on it, unless that makes it shorter than half a second. Call
   /// before any frame is danced.
   void SetCuts(std::vector<int64_t> frames);
-  /// Finds the frame at which a transition from `from` should end, if there is one. Sees `from`
-  /// ascend.
+  /// Finds the frame at which a transition from `from` should end, if any. `from` ascends from call
+  /// to call.
   using CutRule = std::function<std::optional<int64_t>(int64_t from)>;
   /// Sets `rule` instead, for transitions without any key ahead. Call before any frame is danced.
   void SetCutRule(CutRule rule);

@@ -36,11 +36,11 @@ class GroupSink {
   virtual void OnError(const Error& error) = 0;
 };
 
-/// Sorts candidates, best first. kQuality compares, in this order: the strain; the steering
+/// Sorts candidates, best first. kQuality compares, in this order: strain; steering
 /// (KeyReached::correction_m, which includes a miss of the key; 0 without a target) in steps of 1
 /// cm; the share of frames without support in steps of 5 %; the skate ratio in steps of 1 %; the
 /// likelihood, if the model has one; the candidate's number. kLikelihood compares the likelihood,
-/// which favours calm motion, and then the number.
+/// which favours calm motion, then the number.
 void RankCandidates(std::vector<CandidateReport>& candidates, RankBy by = RankBy::kQuality);
 
 /// Implements GenerateTransition. Samples the candidates of one transition as bulk work, and hands

@@ -37,7 +37,7 @@ Warning MusicSilent(int64_t last_frame, double seconds);
 Warning ChannelsCancel(int64_t last_frame);
 /// `seconds`: from the music's end to the key.
 Warning KeyBehindMusic(const std::string& id, int64_t frame, double seconds);
-/// `count`: of given beats after the music, in seconds, of which `first` is the first.
+/// `count`: given beats after the music. `first`: the first of them, seconds.
 Warning BeatsBehindMusic(int64_t music_end, size_t count, double first);
 /// `seconds`: the length of the dance after the music. `music_end`: the frame at which the music
 /// ends.

@@ -17,20 +17,20 @@ struct ContactSheetOptions {
   std::string title;
   /// The number of frames shown, evenly spaced from the first to the last; all if there are fewer.
   int frames = 24;
-  /// If not 0, in place of `frames`: the distance of shown frames in frames of the motion, from 1
-  /// on, from the first.
+  /// If not 0, replaces `frames`: shows every `step`-th frame of the motion, at least 1, from the
+  /// first on.
   double step = 0;
   int columns = 8;
   int tile_width = 210, tile_height = 250;  ///< pixels, 16 to 4096
   std::optional<CameraSide> side;           ///< as in ViewsOf
   /// Frames to highlight. Each replaces the nearest evenly spaced frame, or is added if another key
-  /// has already replaced that.
+  /// replaced that frame.
   std::vector<int64_t> key_frames;
   /// Treats each row as a motion of its own: times restart in each row, and length and frame
   /// numbers of the whole are omitted. `frames` and `columns` must match.
   bool rows_apart = false;
-  /// Captions below the frames in place of times, one per frame of the motion, which omits the
-  /// total length. Empty: times.
+  /// Captions below the frames in place of times, one per frame of the motion; the total length is
+  /// then omitted. Empty: times.
   std::vector<std::string> captions;
   double first_s = 0;  ///< the time of the first frame, seconds
 };

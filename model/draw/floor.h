@@ -19,8 +19,8 @@ class Floor {
   Floor(const View& view, const Camera& camera, const FloorLight& light, int width, int height,
         const Eigen::Vector3f& floor, const Eigen::Vector3f& background);
 
-  /// Draws a row of the picture as `width` rgb pixels. Returns how many of them show only the
-  /// floor's own colour; these are copied, which is faster than computing each.
+  /// Draws a row of the picture as `width` rgb pixels. Returns how many pixels show only the
+  /// floor's own colour; they are copied, which is faster than computing each.
   int DrawRow(int y, uint8_t* rgb) const;
   /// The linear colour at a point of the picture, averaged over `size` pixels.
   Eigen::Vector3f At(const Eigen::Array2f& pixel, float size) const;

@@ -11,15 +11,15 @@ namespace choreo {
 struct PlotSeries {
   std::string label;
   std::vector<double> x, y;  ///< of equal length
-  /// Draws the requested value beside the measured one: dashed, in the colour of the series before
-  /// it, or in the text's if it is the first.
+  /// The requested value beside the measured one: drawn dashed, in the colour of the series before
+  /// it or, if it is the first, of the text.
   bool asked = false;
 };
 
 inline constexpr int kMinPlotPixels = 200, kMaxPlotPixels = 8192;  ///< per side
 
-/// A line chart, or a bar chart if `x_names` is set. A line that is half covered by an earlier one
-/// is dashed, so that both show.
+/// A line chart, or a bar chart if `x_names` is set. A line is dashed if an earlier line covers
+/// half of it, so that both show.
 struct Plot {
   std::string title;
   std::string x_label;

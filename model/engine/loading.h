@@ -32,13 +32,13 @@ struct EngineRequest {
 
 struct KernelSet {
   const PackedKernels* exact;
-  /// The kernels for the networks' products: exact ones, or bfloat16 ones, whose dances have the
-  /// same quality figures (docs/decisions.md, 32).
+  /// The kernels for the networks' products: float32, or bfloat16, whose dances have the same
+  /// quality figures (docs/decisions.md, 32).
   const PackedKernels* products;
 };
 
-/// The first of these kernels that keep rows independent. `notes`, if given, receives a line for
-/// each that do not.
+/// The first of these kernel sets that keeps rows independent. `notes`, if given, receives a line
+/// for each set that does not.
 KernelSet FirstIndependent(const std::vector<KernelSet>& sets,
                            std::vector<std::string>* notes = nullptr);
 
@@ -49,8 +49,8 @@ struct UsedKernels {
 };
 
 /// The kernels for a flow: the fastest that keep rows independent, or the requested ones. None:
-/// LibTorch computes it. Throws Error(kInvalidArgument) for a kind or kernels that the device or
-/// machine lacks.
+/// LibTorch computes the flow. Throws Error(kInvalidArgument) for a kind or kernels that the device
+/// or machine lacks.
 std::optional<KernelSet> ChooseKernels(const EngineRequest& request);
 
 /// The fingerprint of model, weights, build and kernels. Equal exactly if every bit is.
@@ -75,7 +75,7 @@ ModelInfo InfoOf(const Checkpoint& checkpoint, const UsedKernels& kernels) {
           .velocity_references = {}};
 }
 
-/// The velocity reference that every model with velocity factors has.
+/// The velocity reference "median", which every model with velocity factors has.
 VelocityReference MedianReference(const std::array<double, kBodyParts>& speeds);
 
 }  // namespace choreo

@@ -28,7 +28,7 @@ class SampleJob {
   virtual bool Continue(Sampler& sampler) = 0;
 
   /// The last call, made once: after the last slice (nullptr), after cancellation (kCancelled), or
-  /// after a failure. A job that never began ends on any worker's thread.
+  /// after a failure. If the job never began, any worker's thread makes it.
   virtual void OnDone(const Error* failure) noexcept = 0;
 
   /// When the first frame is due for playback, by PlaybackClock. Read once.
@@ -53,7 +53,7 @@ class SampleQueue {
   struct Options {
     int max_bulk = 128;  ///< bulk transitions that may be reserved at once, >= 0
     /// A dance's work precedes bulk from this long before it is due, >= 0. It equals a player's
-    /// buffer, so that other calls never interrupt playback, and is much longer than a slice or the
+    /// buffer, so bulk never interrupts playback, and is much longer than a slice or the
     /// preparation of a dance's music.
     std::chrono::milliseconds bulk_yields{1000};
   };
@@ -62,8 +62,7 @@ class SampleQueue {
     int active = 0;                        ///< jobs begun
     int waiting = 0;                       ///< jobs not yet begun
     uint64_t frames = 0, transitions = 0;  ///< completed
-    /// The number of a worker's consecutive failures that its jobs did not cause; the largest over
-    /// all workers.
+    /// A worker's consecutive failures that its jobs did not cause; the most of any worker.
     int failures = 0;
     double bulk_share = 0;   ///< the reserved share of max_bulk
     double cpu_seconds = 0;  ///< CPU time of the workers' threads in all slices
@@ -72,8 +71,8 @@ class SampleQueue {
   struct Histograms {
     Histogram::Snapshot slice_s;       ///< seconds of a slice
     Histogram::Snapshot transition_s;  ///< seconds of a transition, summed over its slices
-    /// Seconds from when a transition's first frame was due, or was requested if later, to the
-    /// transition's completion, for dances; 0 if in time.
+    /// For dances: seconds by which a transition was completed after its first frame was due or, if
+    /// later, requested; 0 if in time.
     Histogram::Snapshot lateness_s;
   };
   /// Reserves capacity for bulk transitions while it exists. May outlive the queue.

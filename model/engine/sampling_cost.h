@@ -11,8 +11,8 @@ class Sampler;
 void WarmUp(Sampler& sampler);
 
 /// The cost of a frame on one worker, measured in its sampler's warm-up and then in recent
-/// transitions. It is a mean, over takes and rounds of requested energy, too; a transition's cost
-/// is at most kMaxTakes times that of sampling it once (plan/takes.h). Thread-safe.
+/// transitions. A mean that includes takes and rounds of requested energy: a transition costs at
+/// most kMaxTakes times as much as one sampling (plan/takes.h). Thread-safe.
 class SamplingCost {
  public:
   /// `seconds_a_frame`: the initial cost; 0: not measured.

@@ -16,11 +16,11 @@ struct BeatFigures {
   double coverage = 0;   ///< B_k / B_m: kinematic beats over music beats
   double alignment = 0;  ///< BeatAlignmentScore
 };
-/// `music`: beats in frames, ascending; those outside the dance do not count.
+/// `music`: beats in frames, ascending; beats outside the dance do not count.
 BeatFigures ScoreBeats(std::span<const float> speeds, const std::vector<double>& music, double fps);
 
-/// Scores each dance on its own song and, as chance level, on the set's other songs from their
-/// beginnings, whose beats it hits only by density and tempo.
+/// Scores each dance on its own song and, for the level of chance, on the set's other songs from
+/// their beginnings: it hits their beats only by density and tempo.
 class BeatTable {
  public:
   /// The set must outlive the table.
@@ -30,8 +30,7 @@ class BeatTable {
   /// joint speed of each step, m/s. Ignores clips without beats.
   void Add(const std::string& name, size_t clip, int start, const std::vector<float>& speeds);
 
-  /// The rows in the order in which they were first added, but "real" first. Intervals are over
-  /// songs.
+  /// The rows, "real" first, then in the order in which they were added. Intervals are over songs.
   Table Finish() const;
 
  private:

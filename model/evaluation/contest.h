@@ -29,7 +29,7 @@ struct Contest {
 };
 
 /// Loads the models. Throws Error(kInvalidArgument, "--other") for text that is not
-/// NAME=CHECKPOINT, a name that another row has (with field --name if that is the judged model's),
+/// NAME=CHECKPOINT, a name that another row has (the field is --name if the judged model has it),
 /// or a model on another skeleton; otherwise what MakeSampler throws. Checks names before it loads
 /// anything.
 Contest MakeContest(const ContestOptions& options);
@@ -40,7 +40,7 @@ Contest MakeContest(const ContestOptions& options);
 std::vector<ClipSet> LoadSets(const std::vector<std::filesystem::path>& folders,
                               const std::filesystem::path& splits, const std::string& split,
                               const Skeleton& skeleton);
-/// The names of those sets, with the same checks, without reading the folders.
+/// The names of LoadSets' sets, with the same checks of names, without reading the folders.
 std::vector<std::string> SetNames(const std::vector<std::filesystem::path>& folders);
 
 }  // namespace choreo

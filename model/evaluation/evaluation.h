@@ -52,7 +52,7 @@ struct EvalOptions {
   std::vector<int> lengths{kComparedFrames.begin(),
                            kComparedFrames.end()};  ///< of transitions, frames
   int windows_per_clip = 8;
-  int best_of = 10;  ///< samples per window, the nearest of which counts
+  int best_of = 10;  ///< samples per window; the nearest one counts
   float temperature = 0;
   bool own_temperatures = false;  ///< each method's own temperature, in tables that say so
   int long_seeds = 50;            ///< number of long dances of each kind; 0: none
@@ -78,8 +78,8 @@ struct Evaluation {
                : options.temperature;
   }
 
-  /// An empty table for this set. A table of one method has that method's name, except the judged
-  /// method's.
+  /// An empty table for this set. Its name includes the method's if it is about one method other
+  /// than the judged one.
   Table NewTable(const std::string& name, const std::string& title, std::vector<std::string> labels,
                  const Method* of = nullptr) const {
     const bool named = of != nullptr && of != &judged();

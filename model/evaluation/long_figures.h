@@ -16,8 +16,7 @@ struct LongFigures {
   double seconds = 0;
   double median_speed = 0;  ///< of the mean joint speed, m/s
   double late_speed = 0;    ///< the same over the last fifth: shows freezing
-  double stillest =
-      0;  ///< the least such value over any fifth, tried at every fiftieth of the dance
+  double stillest = 0;   ///< the least median over any fifth, tried at every fiftieth of the dance
   double top_speed = 0;  ///< the fastest frame's: shows explosion
   double reach_m = 0;    ///< largest distance of the root from its start, on the floor
   /// Slope of the least-squares line through the root's floor distance from its start, metres per
@@ -47,12 +46,12 @@ struct RealRange {
   double top_speed = 0;
   double p95_acceleration = 0;  ///< mean over clips
   /// The most that any clip moves away, rises or sinks, and changes pace (as a factor of at least
-  /// 1). At least 3 m/min (5 cm/s), 0.15 m and 2, for the sake of sets of a few calm clips.
+  /// 1). At least 3 m/min (5 cm/s), 0.15 m and 2, because a set may have only a few calm clips.
   double away_m_per_min = 3, rise_m = 0.15, pace_change = 2;
 
   /// Whether a dance whose last fifth has this speed is frozen: slower than a quarter of real
-  /// motion. A dance that pauses in its middle but moves at its end is not; only
-  /// LongFigures::stillest shows that.
+  /// motion. A dance that pauses in its middle but moves at its end is not frozen; only
+  /// LongFigures::stillest shows the pause.
   bool Frozen(double speed) const { return speed < 0.25 * median_speed; }
   bool Frozen(const LongFigures& dance) const { return Frozen(dance.late_speed); }
   bool Exploded(const LongFigures& dance) const { return dance.top_speed > top_speed; }

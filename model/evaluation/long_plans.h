@@ -34,11 +34,11 @@ std::vector<LongPlan> PlanKeyedDances(const ModelInfo& model, const ClipSet& set
 /// Beats of one tempo, in frames, from before a dance of `frames` to after it. `phase`: the
 /// position of the first beat after frame 0, as a fraction of the beats' distance.
 std::vector<double> RegularBeats(double bpm, double phase, double fps, int frames);
-/// As many beats on average, at half to one and a half of the regular distance, different for each
+/// As many beats as RegularBeats on average, at 0.5 to 1.5 times their distance, different for each
 /// `seed`. A dance to them meets the regular beats only by chance.
 std::vector<double> ShuffledBeats(double bpm, uint64_t seed, double fps, int frames);
 
-/// Real motion as if a model had made it between a plan's keys: with footwork, rounded as sent.
+/// Real motion, treated like a model's between a plan's keys: with footwork, rounded as sent.
 /// [plan.frames] poses.
 std::vector<Pose> RealThroughFootwork(const ModelInfo& model, const LongPlan& plan,
                                       const ClipSet& set);

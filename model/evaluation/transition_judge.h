@@ -13,7 +13,7 @@ namespace choreo {
 
 inline constexpr int kFramesBefore = 2;  ///< frames of history before the measured ones
 
-/// The figures of one transition by one method.
+/// One method's figures for one transition.
 struct WindowFigures {
   size_t clip = 0;
   double l2p = 0;       ///< m

@@ -35,10 +35,10 @@ struct WeightRow {
   double (*figure)(const WeighedDance&);
   double unit;  ///< tables multiply figures by this
 };
-/// All rows: those about standing and falling, then those about variation.
+/// All rows: first about standing and falling, then about variation.
 std::span<const WeightRow> WeightRows();
 
-/// The mean over the dances in which the figure is not NaN.
+/// The mean over the dances whose figure is not NaN.
 Cell MeanOfKnown(const WeighedDances& dances, double (*figure)(const WeighedDance&), double unit);
 
 }  // namespace choreo

@@ -13,7 +13,7 @@ struct ClipSet {
   std::string name;  ///< of the data's folder
   std::vector<PreparedClip> clips;
   /// The beats of each clip's music, in frames of its motion, ascending (song_beats.h). May be
-  /// shorter than `clips`: the beats of the others are unknown.
+  /// shorter than `clips`: the other clips' beats are unknown.
   std::vector<std::vector<double>> beats = {};
 
   /// choreo::BeatsBetween of the beats of `clip`. Empty if they are unknown.

@@ -26,8 +26,8 @@ class BoneNormaliser {
   BoneNormaliser(const Skeleton& skeleton, const SourceMapping& mapping,
                  const std::vector<std::string>& joint_names);
 
-  /// Measures the median landmark distances of a clip, and the scale from the lengths of legs (hip,
-  /// knee, ankle), or of all bones if the mapping has no knees.
+  /// Measures a clip's median distances between landmarks. The scale comes from the legs (hip,
+  /// knee, ankle), or from all bones if the mapping has no knees.
   SourceSize Measure(const PositionClip& clip) const;
 
   /// Our leg length over the source's in one frame. Some recordings join takes with hips at

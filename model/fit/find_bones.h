@@ -21,8 +21,8 @@ struct RigNodes {
   HumanBones table = {};     ///< bones that the file itself names, as VRM does
 };
 
-/// A user's assignment of a bone to a node, by name or by number from 0 on. Neither of them removes
-/// the bone.
+/// A user's assignment of a bone to a node, by name or by number from 0 on. Without either, the
+/// bone is removed.
 struct BoneChoice {
   std::string bone = {};   ///< a name of HumanBones
   std::string name = {};   ///< of a node, or empty
@@ -30,14 +30,14 @@ struct BoneChoice {
   std::string field = {};  ///< the field of errors about the choice
 };
 
-/// Assigns bones by `chosen`, then by the file's table, then by names. If names are duplicate,
-/// takes all bones from one skeleton, and prefers the body that moves, and nodes that a skin uses,
-/// that move, and that hold no mesh. Bones may be missing. Throws Error(kInvalidArgument), whose
-/// field is the choice's, for a bone or node that does not exist.
+/// Assigns bones by `chosen`, then by the file's table, then by names. Among duplicate names, takes
+/// all bones from one skeleton. Prefers the body that moves, and nodes that a skin uses, that move,
+/// and that hold no mesh. Bones may be missing. Throws Error(kInvalidArgument), whose field is the
+/// choice's, for a bone or node that does not exist.
 HumanBones FindBones(const RigNodes& rig, const std::vector<BoneChoice>& chosen = {});
 
-/// Returns the bodies that move: `found`, and others with as many bones and none in common, in the
-/// file's order.
+/// Returns the bodies that move: `found`, and others with as many bones, none of them shared, in
+/// the file's order.
 std::vector<HumanBones> MovingBodies(const RigNodes& rig, const HumanBones& found);
 
 /// Thrown if the names of a rig do not identify enough bones. The caller may guess them from the

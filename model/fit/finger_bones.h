@@ -28,13 +28,13 @@ struct HandKey {
 /// names contain thumb, index, middle, ring or pinky, as in Mixamo, VRM, Unreal, Rigify and many
 /// other rigs. A finger bends about one axis, across itself, towards the palm, whose side follows
 /// from wrist and knuckles at rest. A thumb turns towards the middle of the palm. Angles count from
-/// straight fingers, those of knuckles from rest, so a rig that rests with bent fingers gets the
-/// same pose. Nothing bends back beyond straight. Empty for kRest, and for hands without a thumb or
-/// a second finger, whose palm is unknown. Pure.
+/// straight fingers, at knuckles from rest, so a rig that rests with bent fingers gets the same
+/// pose. Nothing bends back beyond straight. Empty for kRest, and for hands without a thumb or a
+/// second finger, whose palm is unknown. Pure.
 std::vector<CurledBone> CurlFingers(const RigNodes& rig, const HumanBones& bones, HandPose pose);
 
-/// The same for hands that move from key to key: at least one, in order of time. Before the first
-/// and after the last key the hands keep its pose.
+/// The same for hands that move from key to key: at least one key, in order of time. Before the
+/// first and after the last key the hands hold its pose.
 std::vector<CurledBone> CurlFingers(const RigNodes& rig, const HumanBones& bones,
                                     const std::vector<HandKey>& keys, int64_t frames, double fps);
 

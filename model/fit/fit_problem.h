@@ -23,8 +23,8 @@ class FitProblem {
                Pose& pose);
 
   /// Computes an initial pose for a frame without a predecessor. From the root outwards, each joint
-  /// takes the rotation that best turns the rest directions of the landmarks below it onto the
-  /// targets' (Kabsch). A bent limb's plane determines the twist of its hip or shoulder.
+  /// takes the rotation that best turns its landmarks' rest directions into the targets' (Kabsch).
+  /// A bent limb's plane determines the twist of its hip or shoulder.
   Pose Start(const Eigen::Matrix3Xd& targets) const;
   /// The total rotation from rest over all joints of the trunk, radians.
   double TrunkTurn(const Pose& pose) const;

@@ -14,14 +14,14 @@ namespace choreo {
 /// Standard deviations of the least-squares terms, besides SourceMapping::accuracy_m.
 struct FitOptions {
   double rest_rad = 1.2;           ///< of every joint from its rest rotation
-  double stiff_rad = 0.5;          ///< the same of spine, collars, neck, head, wrists and feet
+  double stiff_rad = 0.5;          ///< of spine, collars, neck, head, wrists, feet: likewise
   double twist_rad = 0.7;          ///< of hips and shoulders about the bone below
   double foot_turn_rad = 0.35;     ///< of ankles about the shin
   double hinge_side_rad = 0.35;    ///< of knees and elbows off their hinge axis
   double hinge_limit_rad = 0.006;  ///< of knees and elbows beyond straight
   double change_rad = 0.12;        ///< of every joint since the frame before, at 30 fps
   int iterations = 3;              ///< per frame with a predecessor
-  bool recover = true;             ///< restart where the fit is lost, even if the motion jumps
+  bool recover = true;             ///< restart where the fit is lost, even if the motion then jumps
   bool ground = true;              ///< FitClip only: put the body on the floor (Ground)
 };
 
@@ -64,7 +64,7 @@ class LandmarkTerm {
   double accuracy_m_;
 };
 
-inline constexpr double kSineOfSureBend = 0.3;  ///< a limb this bent is bent, despite any noise
+inline constexpr double kSineOfSureBend = 0.3;  ///< a limb bent this much is not straight
 
 /// The plane of a bent limb. Its normal is the hinge axis, which determines the twist of the bone
 /// above.
@@ -99,8 +99,8 @@ class HingePlaneTerm {
   std::vector<HingePlane> planes_;
 };
 
-/// Pulls each joint weakly to its rest rotation, keeps knees and elbows on their hinge axis and
-/// from bending beyond straight, and keeps joints near their neighbours in time.
+/// Pulls each joint weakly to its rest rotation and to its neighbours in time. Keeps knees and
+/// elbows on their hinge axes and from bending beyond straight.
 class JointTerm {
  public:
   JointTerm(const Skeleton& skeleton, const FitOptions& options, double fps);

@@ -21,9 +21,9 @@ struct DrawnPose {
   std::vector<double> missed_m;  ///< [targets] each joint's final distance from its target
 };
 
-/// What hands, head and chest without targets do when the pelvis has one.
+/// What hands, head and chest do without targets when the pelvis has a target.
 enum class UpperBody {
-  kStays,  ///< near its places, as with hands on a barre
+  kStays,  ///< they stay nearly in place, as with hands on a barre
   kFollowsPelvis,
 };
 

@@ -16,10 +16,10 @@ const std::vector<std::string>& MediaPipeJointNames();
 
 /// Fits a pose to the landmarks of one picture. `landmarks` [3, 33] are MediaPipe's world
 /// landmarks: metres from the middle of the hips, x to the picture's right, y down, z away from the
-/// camera. `visibilities` [33], 0 to 1, weight them; priors determine what is hardly visible. The
-/// result has our bones in the landmarks' directions, and stands near the origin with a foot on the
-/// floor. A person who looks into the camera faces +Z. Pure. Throws Error(kInvalidArgument) for
-/// numbers that are not finite.
+/// camera. `visibilities` [33], 0 to 1, weight them; priors decide for landmarks that are hardly
+/// visible. The result has our bones in the landmarks' directions, and stands near the origin with
+/// a foot on the floor. A person who looks into the camera faces +Z. Pure. Throws
+/// Error(kInvalidArgument) for numbers that are not finite.
 Pose FitMediaPipe(const Eigen::Matrix3Xd& landmarks, std::span<const double> visibilities,
                   const Skeleton& skeleton);
 

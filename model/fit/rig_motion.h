@@ -26,8 +26,7 @@ struct RigMotion {
   HumanBones bones = {};                 ///< the bone of each column
   std::vector<std::string> names = {};   ///< [bones] names in the file
   std::vector<RigPlacement> rests = {};  ///< candidates for the rest pose, best first
-  /// The number of `rests`, counted from the first, whose axes are not the file's, such as a
-  /// skin's.
+  /// How many of the first `rests` have other axes than the file, as a skin's bind pose may.
   size_t rests_apart = 0;
   int64_t count = 0;  ///< frames
   std::function<RigPlacement(int64_t frame)> frame = {};

@@ -9,11 +9,11 @@
 #include "model/fit/character_body.h"
 #include "model/fit/rig_motion.h"
 
-/// Finds out from a recording what its rig's rest pose and rotations mean, before fitting. Private
+/// Works out from a recording what its rig's rest pose and rotations mean, before fitting. Private
 /// to this folder.
 namespace choreo {
 
-/// The share of frames in which something must hold to count as a rule.
+/// Something true in this share of frames counts as a rule.
 inline constexpr double kRuleShare = 0.9;
 
 /// A limb's bone: the joints at its two ends, by their names in SMPL and HumanBones.

@@ -23,8 +23,8 @@ struct OurPoint {
   std::string joint;
   double weight = 1;
   /// Offset in the joint's frame (at rest: x to the dancer's left, y up, z forward), metres. For
-  /// points that are not joints, such as heels and temples, and for source joints whose place in
-  /// the body differs from ours of the same name.
+  /// points that are not joints, such as heels and temples, and for source joints that sit
+  /// elsewhere in the body than our joint of that name.
   Eigen::Vector3d offset = Eigen::Vector3d::Zero();
 };
 
@@ -35,9 +35,9 @@ struct Landmark {
   JointBlend source;           ///< in terms of the source's joints
   std::vector<OurPoint> ours;  ///< in terms of our skeleton's joints; the weights sum to 1
   int parent = -1;             ///< index of an earlier landmark, -1 for the first
-  /// True for a single bone: the target takes the source's direction from the parent and our rest
-  /// length. False for several bones, whose ends change their distance: the target takes the
-  /// source's vector, scaled by our rest length over the source's median length.
+  /// True for a single bone: the target has the source's direction from the parent and our rest
+  /// length. False for several bones between: the target is the source's vector, scaled by our rest
+  /// length over the source's median length.
   bool rigid = true;
   double weight = 1;  ///< confidence, which multiplies the residual
 };
@@ -59,7 +59,7 @@ SourceMapping IdentitySource(const Skeleton& skeleton, double hands = 1);
 
 /// The mapping of a BVH clip by its joint names (human_bones.h). End sites have their parent's name
 /// + "_end". Measures the spine's proportions in the clip. Throws Error(kInvalidArgument), naming
-/// the first missing joint of those needed: hips, knees, ankles, shoulders, elbows, wrists, neck.
+/// the first needed joint that is missing: hips, knees, ankles, shoulders, elbows, wrists, neck.
 SourceMapping BvhSource(const PositionClip& clip);
 /// The same for known bones.
 SourceMapping RigSource(const PositionClip& clip, const HumanBones& bones);
@@ -72,8 +72,8 @@ const std::vector<std::string>& Tang2018JointNames();
 SourceMapping Tang2018Source();
 
 /// The 21 joints of the same dancers as first published, in file order. The row called head is the
-/// left temple. The heels' rows are midway between heel and toes. The neck is two thirds of the way
-/// from the waist to the temple, so it adds nothing.
+/// left temple. The heels' rows are midway between heel and toes. The neck lies two thirds of the
+/// way from waist to temple, so it adds nothing.
 const std::vector<std::string>& Tang61JointNames();
 SourceMapping Tang61Source();
 

@@ -5,7 +5,7 @@
 
 /// Transfers a dance from SMPL's body to a character's (character_body.h), whose rest pose is
 /// SMPL's. Bones take the world rotations of SMPL's. A trunk or neck with more or fewer bones bends
-/// as much in total. All functions are pure and work frame by frame.
+/// as much in all. All functions are pure and work frame by frame.
 namespace choreo {
 
 /// The height of the character's hips above its ankles at rest over SMPL's, which scales travel.
@@ -19,7 +19,7 @@ Motion CopyTurns(const Motion& smpl, const Skeleton& character);
 /// each other, the head, the thighs or the floor keep SMPL's distance from them, scaled.
 Motion PlaceLimbs(const Motion& smpl, const Skeleton& character, Motion copied);
 
-/// CopyTurns, then PlaceLimbs. Throws Error(kInvalidArgument) for poses of another joint count than
+/// CopyTurns, then PlaceLimbs. Throws Error(kInvalidArgument) if a pose's joint count is not
 /// SMPL's.
 Motion TransferToCharacter(const Motion& smpl, const Skeleton& character);
 

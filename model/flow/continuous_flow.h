@@ -21,7 +21,7 @@ namespace choreo {
 /// buffers.
 class ContinuousFlowImpl : public torch::nn::Module {
  public:
-  /// Initially the prior is that of a random walk.
+  /// Initially the prior is a random walk's.
   ContinuousFlowImpl(const ContinuousFlowConfig& config, const Skeleton& skeleton);
 
   /// Shapes as in FlowNetwork::Evaluate, time before features: z [batch, w, dimensions], poses and
@@ -62,7 +62,7 @@ class ContinuousFlowImpl : public torch::nn::Module {
 TORCH_MODULE(ContinuousFlow);
 
 /// Runs the network one window at a time, so that a window's bits do not depend on others. Keeps
-/// the model, on its device.
+/// the model on its device.
 std::unique_ptr<FlowNetwork> MakeTorchFlowNetwork(ContinuousFlow model,
                                                   torch::Device device = torch::kCPU);
 

@@ -12,7 +12,7 @@
 
 namespace choreo {
 
-/// The farthest key in training, in frames from the window's first.
+/// The farthest key in training: frames after the window's first.
 inline constexpr int kSightFrames = 192;
 
 /// The continuous flow's shape and sampling. Stored in every checkpoint.
@@ -28,9 +28,9 @@ struct ContinuousFlowConfig {
 
   int steps = 3;           ///< K, network evaluations from noise to motion
   double temperature = 1;  ///< the served default, as in FlowNoise
-  /// Multiplies the effect of beats and style on F (classifier-free guidance, Ho & Salimans 2022);
-  /// values other than 1 take twice the evaluations with a style, and one less than that with beats
-  /// only.
+  /// Multiplies the effect of beats and style on F (classifier-free guidance, Ho & Salimans 2022).
+  /// Except for 1, guidance doubles the evaluations with a style, and takes one less than twice
+  /// with beats alone.
   double guidance = 2;
   std::vector<std::string> styles = {};  ///< labels known from training
   /// Medians of the training clips' velocity factors, metres per frame.

@@ -26,8 +26,8 @@ struct EnergyCurve {
   bool IsValid() const {
     return spread.allFinite() && correlation.allFinite() && correlation.cwiseAbs().maxCoeff() <= 1;
   }
-  /// Samples levels minus their mean, [kBodyParts, frames]; `history`: that of the poses before.
-  /// `normal` [kBodyParts, frames]: standard normal numbers.
+  /// Samples levels minus their mean, [kBodyParts, frames]. `history`: the level, minus the mean,
+  /// of the poses before. `normal` [kBodyParts, frames]: standard normal numbers.
   Eigen::MatrixXd Sample(const EnergyPrior::Levels& history, const Eigen::MatrixXd& normal) const;
 
   /// All numbers in one row, as stored in checkpoints.

@@ -10,8 +10,8 @@
 
 namespace choreo {
 
-/// A prior for a window's energy where no control sets it: the EnergyLevel of each body part is
-/// Gaussian, given what is known of the window. Without this prior every dance would have the mean
+/// A prior for a window's energy where no control sets it: given what is known of the window, the
+/// body parts' EnergyLevels are Gaussian. Without this prior every dance would have the mean
 /// energy. Measured in training. Thread-safe.
 class EnergyPrior {
   static constexpr double kEverything = 1e3;
@@ -24,9 +24,9 @@ class EnergyPrior {
     bool key = false;
     double surprise = 1;              ///< FlowWindow::surprise
     Levels history = Levels::Zero();  ///< of the poses before it; zero for a held pose
-    /// Levels of the direct motion to the key, the least possible: of joints relative to the root,
-    /// with the root's own as the trunk's; and of all joints in the world. None if the key leaves
-    /// them open.
+    /// Levels of the direct motion to the key, the least possible. `way`: of joints relative to the
+    /// root, with the root's own level as the trunk's. `way_in_world`: of all joints in the world.
+    /// None if the key leaves them open.
     std::optional<Levels> way = {}, way_in_world = {};
     int frames = kTypicalFrames;
     int style = -1;  ///< requested style, or -1
@@ -37,8 +37,8 @@ class EnergyPrior {
   static constexpr int kInputs = 2 * (2 + 3 * kBodyParts);
   using Inputs = Eigen::Matrix<double, kInputs, 1>;
   Inputs Describe(const Known& known) const;
-  /// The range of each input in training; inputs, and levels (with the history's range), are
-  /// clipped to it. Initially unbounded.
+  /// The range of each input in training, to which inputs are clipped; levels are clipped to the
+  /// history's. Initially unbounded.
   Inputs least = Inputs::Constant(-kEverything), most = Inputs::Constant(kEverything);
   /// Replacements for direct motions that a key leaves open: the means in training.
   Levels usual_way = Levels::Zero(), usual_way_in_world = Levels::Zero();

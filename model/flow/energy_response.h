@@ -4,13 +4,13 @@
 
 namespace choreo {
 
-/// The energy of sampled windows as a function of the energy requested from the network. The
-/// network makes calm windows too lively and lively ones too calm; the inverse gives the energy to
-/// request. Measured in training on validation clips.
+/// The energy that windows have if an energy is requested from the network, which makes calm
+/// windows too lively and lively ones too calm. The inverse gives the energy to request. Measured
+/// in training on validation clips.
 struct EnergyResponse {
   using Levels = EnergyPrior::Levels;
 
-  /// For each part, the danced EnergyLevel = offset + slope * requested level. All zero: unknown.
+  /// For each part: danced EnergyLevel = offset + slope * requested level. All zero: unknown.
   Levels offset = Levels::Zero(), slope = Levels::Zero();
 
   bool known() const { return slope.minCoeff() > 0; }

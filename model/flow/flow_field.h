@@ -14,8 +14,8 @@ namespace choreo {
 class FlowField {
  public:
   /// `history`: the window's history. `features`: the window's features with labels and, for
-  /// guidance, without. `keeps_effect`: the last step reuses the labels' effect from the previous
-  /// one. This is valid for beats, which affect neighbouring steps alike.
+  /// guidance, without. `keeps_effect`: the last step reuses the labels' effect on the previous
+  /// step; beats affect neighbouring steps alike.
   FlowField(const FlowModelParts& model, const FlowNetwork& network, const FlowWindow& window,
             std::span<const Pose> history, std::span<const WindowFeatures> features,
             bool keeps_effect);

@@ -22,8 +22,8 @@ struct FlowNoise {
   uint64_t seed = 0;
   uint32_t candidate = 0;
   int64_t first_frame = 0;  ///< absolute number of the window's first frame
-  /// The absolute frame whose numbers each frame from the first on repeats, with this much
-  /// `variation` (FillNormalLike). Empty: all have their own.
+  /// For each frame from the first on, the absolute frame whose numbers it repeats with
+  /// `variation`, 0 to 1 (FillNormalLike). Empty: all frames have their own.
   std::vector<int64_t> like = {};
   double variation = 0;
   /// Interpolates from the mean motion (0, in one step) to a sampled one (1) and slightly beyond,
@@ -36,30 +36,29 @@ struct FlowNoise {
 };
 
 /// Samples one window: from noise at t = 0 to motion at t = 1 along dz/dt = (2t - 1)/a z +
-/// F/sqrt(a), a = t² + (1 - t)² (flow matching, Lipman et al. 2023). With w = z/sqrt(a) and the
-/// angle tan = t/(1 - t) that is dw = F, solved by second-order Adams-Bashforth steps: motion keeps
-/// the energy that the prior expects, however few steps are taken. The poses [w] are in the
+/// F/sqrt(a), a = t² + (1 - t)² (flow matching, Lipman et al. 2023). With w = z/sqrt(a) over the
+/// angle arctan(t/(1 - t)) this is dw = F, solved by second-order Adams-Bashforth steps. However
+/// few the steps, motion keeps the energy that the prior expects. The poses [w] are in the
 /// request's frame. Meets a requested path exactly. Parts without velocity factors take their
-/// energy from the energy prior and curve: the mean at temperature 0, else a sample.
-/// A slice is one evaluation of the network. Model and network must outlive the slices.
+/// energy from the energy prior and curve: the mean at temperature 0, else a sample. A slice is one
+/// evaluation of the network. Model and network must outlive the slices.
 Slices<std::vector<Pose>> SampleWindow(const FlowModelParts& model, const FlowNetwork& network,
                                        WindowRequest request, FlowNoise noise);
 
 /// Samples a transition of any length as windows of at most config.window_frames, one after
 /// another, each in its own canonical frame. Every window sees the transition's key if it is at
-/// most kSightFrames away. Samples a window again, while spare frames are left, if it is faster
-/// than people are or ends, without a key, in a pose that dancers hardly ever have. `request`
-/// covers the whole transition, of at least one frame (frames
-/// <= to_key if there is a key). The model's TurnPrior chooses the direction of the turn to the
-/// key, unless the request does.
+/// most kSightFrames away. While spare frames are left, samples a window again that is faster than
+/// people are or ends, without a key, in a pose that dancers hardly ever have. `request`: the whole
+/// transition, at least one frame; frames <= to_key if there is a key. The model's TurnPrior
+/// chooses the direction of the turn to the key, unless the request does.
 Slices<std::vector<Pose>> SampleTransition(const FlowModelParts& model, const FlowNetwork& network,
                                            WindowRequest request, FlowNoise noise,
                                            SpareFrames* spare);
 
-/// Samples the continuous flow. A slice is one evaluation of its network, in rounds if energy is
-/// requested and spare frames are left. Windows are sampled one after another, so a transition's
-/// bits depend on nothing else. Its music input is beats, not sound. Plans have no contacts. Made
-/// by samplers.h.
+/// Samples the continuous flow. A slice is one evaluation of its network. If energy is requested,
+/// samples several rounds while spare frames are left. Samples one window after another, so a
+/// transition's bits depend on nothing else. It hears beats, not sound. Plans have no contacts.
+/// Made by samplers.h.
 class ContinuousFlowSampler : public Sampler {
  public:
   ContinuousFlowSampler(ModelInfo info, std::string device,

@@ -27,19 +27,18 @@ struct WindowRequest {
   PoseMask mask = {};
   bool height = false;  ///< whether the key's height counts if its position does not
   int to_key = 0;       ///< N >= frames, frames from the history to the key, if any
-  /// The rotation vector by which the root turns to its key, if known. None: the one that the
-  /// history suggests.
+  /// The rotation vector by which the root turns to its key. None: what the history suggests.
   std::optional<Eigen::Vector3d> turn_to_key = {};
   Controls controls = {};          ///< of its frames
   std::vector<double> beats = {};  ///< in frames from the window's first, ascending, or empty
   EnergyShift energy_shift = {};   ///< of the body parts without requested velocity factors
   int style = -1;                  ///< index of a style, or -1
-  /// The middle of the floor that the dancer keeps to, and the audience. Without a path the dancer
+  /// The middle of the dancer's floor, and the audience's direction. Without a path the dancer
   /// returns to both, unless a key fixes the root's position or rotation.
   std::optional<GroundFrame> stage = {};
-  /// The approximate turn of the root about the vertical by the window's end, radians, if no key
-  /// fixes the rotation. Of the equivalent turns to the audience, the one nearest to this is used.
-  /// None: the turn that the history suggests.
+  /// About how far the root turns about the vertical by the window's end, radians, if no key fixes
+  /// the rotation. The dancer faces the audience by the whole turns nearest to this. None: what the
+  /// history suggests.
   std::optional<double> free_turn = {};
 
   /// The request for the frames [from, from + count) only, with `poses` as history. `ground`: the
@@ -91,17 +90,17 @@ class FlowWindow {
   /// Whether the stage determines how the root's position continues.
   bool staged() const { return stage_ != nullptr; }
 
-  /// Mean square, relative to what the prior expects, of the displacement to the key, or without a
-  /// key of the history's velocity.
+  /// Mean square of the displacement to the key or, without a key, of the history's velocity,
+  /// relative to what the prior expects.
   double surprise() const { return surprise_; }
-  /// MotionPrior::Scales for that and the requested energy, [dimensions, w]: the units of white
-  /// coordinates.
+  /// MotionPrior::Scales for the surprise and the requested energy, [dimensions, w]: the units of
+  /// white coordinates.
   const Eigen::MatrixXd& scales() const { return scales_; }
   /// Replaces the energy of the window's request. All other fields must be equal.
   void SetEnergy(const MotionPrior& prior, const WindowRequest& request);
 
-  /// Poses for all frames → x; none if a joint deviates farther from the mean than coordinates
-  /// reach, or ends a turn away from the key.
+  /// Poses of all frames → x; none if a joint is farther from the mean than coordinates reach, or
+  /// ends a whole turn away from the key.
   std::optional<Eigen::MatrixXd> Encode(std::span<const Pose> poses) const;
   std::vector<Pose> Decode(const Eigen::MatrixXd& x) const;
   /// Converts z to x, and one dimension's row back.

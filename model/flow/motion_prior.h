@@ -21,8 +21,8 @@ struct VariancePowers {
   double surprise = 0;  ///< of FlowWindow::surprise
   /// The range in training, to which values are clipped.
   double least = 1e-3, most = 1e3;
-  /// The variance of a body part with known energy is e to `offset`, times the surprise to a power,
-  /// times e to `level` times its EnergyLevel.
+  /// A body part with known energy has the variance exp(offset + level * EnergyLevel) *
+  /// surprise^known_surprise.
   double offset = 0, known_surprise = 0, level = 0;
   double least_scale = kDefaultMinScale;        ///< the least factor of its spread
   std::vector<int> parts = {};                  ///< by dimension: its body part, or -1
@@ -35,10 +35,9 @@ double EnergyLevel(double factor, double median);
 /// The velocity factor with this EnergyLevel, at least 0.
 double EnergyFactor(double level, double median);
 
-/// Units of rotations as network inputs. Dimensions with a spread of at most `still` are absent
-/// from the recordings but may be moved by keys; a unit near zero would make those inputs
-/// unbounded, so they get the mean of the others. Leaves the first three, the root's position,
-/// unchanged.
+/// Units of rotations as network inputs. Dimensions with a spread of at most `still` do not move in
+/// recordings, but keys may move them. A unit near zero would make those inputs unbounded, so they
+/// get the mean of the others. Leaves the first three, the root's position, unchanged.
 Eigen::VectorXd FillUnusedSpread(Eigen::VectorXd spread, double still);
 
 /// The pose that dancers return to when nothing is requested. Empty: unknown.
@@ -56,9 +55,9 @@ struct UsualPose {
 };
 
 /// A prior for motion, given only its past and a key: the velocity of each degree of freedom is a
-/// stationary Gaussian process. Its mean given history and key is the flow's starting point. Its
-/// covariance is that of the flow's noise, which is therefore as smooth as motion, at any length,
-/// with and without a key.
+/// stationary Gaussian process. Its mean given history and key is the flow's starting point. The
+/// flow's noise has its covariance, so it is as smooth as motion, at any length, with and without a
+/// key.
 ///
 /// Units: metres per frame for the root's position, radians per frame for rotations. Thread-safe.
 class MotionPrior {
@@ -68,20 +67,19 @@ class MotionPrior {
   static constexpr int kTurn = 4;    ///< the dimension of the root's turn about the vertical
   /// Bound of white coordinates, in deviations from the mean: recordings beyond it are faulty.
   static constexpr double kMaxWhite = 5;
-  /// Bound of the history's velocities, times their spread: faster ones were forced by keys and
-  /// floor, do not continue so, and lead networks far out of the range they know.
+  /// Bound of the history's velocities, in their spreads. Keys and floor force faster ones, which
+  /// do not last, and networks do not know them.
   static constexpr double kMaxSpeed = 8;
 
   /// The distribution of one degree of freedom's displacements f_1..f_w from the last history
-  /// frame. `past` [w, kPast] and `key` [w] are the weights in their mean of the last velocities
-  /// (latest first) and of the displacement to the key or, without one, to the usual pose; `spread`
-  /// [w, w] is the lower Cholesky factor of their covariance, so that row i depends only on frames
-  /// up to i.
+  /// frame. Their mean weights the last velocities, latest first, by `past` [w, kPast], and the
+  /// displacement to the key or, without one, to the usual pose by `key` [w]. `spread` [w, w] is
+  /// the lower Cholesky factor of their covariance, so row i depends only on frames up to i.
   struct Bridge {
     Eigen::MatrixXd past;
     Eigen::VectorXd key;
     Eigen::MatrixXf spread;
-    /// Variance of the known values: the last velocities, then that displacement.
+    /// Variance of the known values: the last velocities, then the displacement.
     Eigen::VectorXd expected;
   };
 
@@ -103,8 +101,8 @@ class MotionPrior {
   /// False for degrees of freedom that recordings lack, such as finger joints.
   bool Moves(int dimension) const;
 
-  /// The bridges by dimension of a window of `frames` frames with a key `to_key` frames after the
-  /// history (at least `frames`); 0: no key. Caches the latest.
+  /// The bridges, by dimension, of a window of `frames` frames. The key is `to_key` >= `frames`
+  /// frames after the history; 0: no key. Caches the latest.
   std::shared_ptr<const std::vector<Bridge>> Bridges(int frames, int to_key) const;
   /// The bridges of the root's position alone [3], without a key, on a stage with known middle.
   std::shared_ptr<const std::vector<Bridge>> StageBridges(int frames) const;

@@ -6,8 +6,8 @@
 
 namespace choreo {
 
-/// Paper F's Eq. 9 for one frame count, at one of `width` places: even ones sine, odd ones cosine,
-/// base 10 000.
+/// Paper F's Eq. 9 for one frame count at one of `width` places: sine at even places, cosine at odd
+/// ones, base 10 000.
 double EmbedCountAt(double count, size_t place, size_t width);
 
 /// All places of an embedding, for many counts.

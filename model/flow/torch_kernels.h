@@ -6,8 +6,8 @@
 
 namespace choreo {
 
-/// The part of a fingerprint that covers everything, except weights, that can change LibTorch's
-/// bits: "torch 2.1.2, openblas, AVX512, 1 threads".
+/// A fingerprint's part for all but weights that can change LibTorch's bits: "torch 2.1.2,
+/// openblas, AVX512, 1 threads".
 std::string TorchKernels(const torch::Device& device);
 
 }  // namespace choreo

@@ -15,14 +15,14 @@ namespace choreo {
 EnergyPrior::Known KnownOfEnergy(const FlowModelParts& model, const WindowRequest& request,
                                  const FlowWindow& window);
 
-/// Gives body parts without velocity factors an energy, sampled from the prior by `normals`: of the
-/// levels, [kBodyParts], and of the curves, [kBodyParts, w].
+/// Samples an energy from the prior for body parts without velocity factors. Standard normal
+/// numbers: `level_normals` [kBodyParts], `curve_normals` [kBodyParts, w].
 void FillInEnergy(const FlowModelParts& model, const EnergyPrior::Levels& level_normals,
                   const Eigen::MatrixXd& curve_normals, double temperature,
                   const FlowWindow& window, WindowRequest* request);
 
-/// Replaces wanted levels by the ones to request, so that the network dances the wanted ones
-/// (EnergyResponse). The mean motion, at temperature 0, needs no correction.
+/// Replaces wanted levels by the levels to request for them (EnergyResponse). The mean motion, at
+/// temperature 0, needs no correction.
 void CorrectLevels(const FlowModelParts& model, double temperature, WindowRequest* request);
 
 /// Adjusts the requested energy, to which the network responds too weakly. Computes by how much

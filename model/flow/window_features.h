@@ -23,9 +23,9 @@ WindowFeatures DescribeWindow(const Skeleton& skeleton, const ContinuousFlowConf
                               const MotionPrior& prior, const WindowRequest& request,
                               const FlowWindow& window);
 
-/// The position of frame `at` between two of the `beats` (frames, ascending): [0, 1). Outside the
-/// beats the nearest interval repeats; fewer than two beats have no phase. `period`: frames of that
-/// interval.
+/// The position of frame `at` between two of the `beats` (frames, ascending), [0, 1). Outside the
+/// beats the nearest interval repeats; fewer than two beats have no phase. `period`: the interval,
+/// frames.
 struct BeatPhase {
   double phase = 0, period = 0;
 };

@@ -23,8 +23,8 @@
 /// Other names of poses are fullpose, full_pose, pose and thetas. Rotations are axis-angle,
 /// matrices or 6D (rotation_rows.h). The rate is mocap_framerate, mocap_frame_rate, fps, frame_rate
 /// or framerate. J0 is the rest pelvis of SMPL, or of SMPL-X in files with 55 joints or a jaw. Of
-/// 52 (SMPL-H) and 55 joints, only the body's 22 are read. Body shape (betas) is not applied:
-/// motions are of the neutral body, which is put on the floor if betas differ.
+/// 52 (SMPL-H) or 55 joints, only the body's 22 are read. Body shape (betas) is ignored: the motion
+/// gets the neutral body, which is put on the floor if betas differ.
 namespace choreo {
 
 /// The rest position of the neutral body's pelvis in SMPL's own coordinates, metres.
@@ -33,8 +33,8 @@ Eigen::Vector3d SmplRestPelvis();
 Eigen::Vector3d SmplXRestPelvis();
 
 /// Converts a pose of our world (Y up, position of the pelvis) to AMASS's (Z up, SMPL's translation
-/// in `root_position`). Changes only the root. The angle of its rotation vector is then in [0, 2
-/// pi], following the quaternion.
+/// in `root_position`). Changes only the root, whose rotation vector then has an angle in [0, 2
+/// pi].
 Pose ToAmass(const Pose& pose);
 
 /// Reads SMPL's 24 joints at the file's own rate; without one, AIST++ has 60 fps and others 30. If

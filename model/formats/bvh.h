@@ -40,12 +40,13 @@ struct BvhJoint {
   std::string name;  ///< an End Site has its parent's name + "_end"
   int parent = -1;   ///< -1 for a root; parents precede their children
   Eigen::Vector3d offset = Eigen::Vector3d::Zero();  ///< from the parent, file units
-  /// The channels in file order. Rotations multiply in that order, R = R_first R_second R_third. A
+  /// The channels in file order. Rotations multiply in this order: R = R_first R_second R_third. A
   /// position channel replaces the offset's coordinate, at the root and elsewhere, as authoring
   /// tools write it.
   std::vector<BvhChannel> channels;
   bool end_site = false;
-  /// The position channels are added to the offset, because they are nearly 0 in all frames.
+  /// Whether position channels are added to the offset; they are if they are nearly 0 in all
+  /// frames.
   bool adds = false;
 };
 
@@ -81,7 +82,7 @@ void WriteBvh(const std::filesystem::path& path, const BvhFile& file);
 
 /// Global positions and rotations of all joints and end sites in one frame, in file units.
 RigPlacement PlaceBvh(const BvhFile& file, int64_t frame);
-/// The same from the offsets alone.
+/// PlaceBvh for the rest pose: from the offsets alone.
 RigPlacement PlaceBvhAtRest(const BvhFile& file);
 
 /// Global positions of all joints and end sites in one frame, [3, joints], file units.

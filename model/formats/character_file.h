@@ -23,7 +23,7 @@ class CharacterFile {
   explicit CharacterFile(const std::filesystem::path& path);
 
   const GltfNodes& nodes() const { return nodes_; }
-  /// The nodes for finding bones (fit/find_bones.h), with places in the file's unit.
+  /// The nodes, for finding bones (fit/find_bones.h), in the file's unit.
   const RigNodes& rig() const { return rig_; }
   const Eigen::Matrix3Xd& places() const { return rig_.places; }
 
@@ -33,10 +33,10 @@ class CharacterFile {
   }
 
   /// Writes the character with the dance as its first animation, "dance", whose extras hold `fps`.
-  /// Everything else stays byte for byte. The dance keeps our axes in the file's world, Y up and +Z
-  /// ahead, whichever way the character faces at rest. `motion` is of `body.skeleton`, and `body`
-  /// of this file. `fingers` have one angle, or one per frame. Throws Error(kInvalidArgument) for a
-  /// motion without frames, zero scales, or more than 4 GiB; Error(kInternal) if the file cannot be
+  /// Everything else stays byte for byte. In the file's world the dance keeps our axes, Y up and +Z
+  /// ahead, however the character faces at rest. `motion` is of `body.skeleton`, and `body` of this
+  /// file. `fingers` have one angle, or one per frame. Throws Error(kInvalidArgument) for a motion
+  /// without frames, zero scales, or more than 4 GiB; Error(kInternal) if the file cannot be
   /// written. With RootMotion::kRoot, the node right above all bones carries the character over the
   /// floor, or a new node above the pelvis if there is none. Throws Error(kInvalidArgument) if no
   /// one node is above the bones.

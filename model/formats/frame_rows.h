@@ -20,8 +20,8 @@
 /// | 322       | Motion-X  | turns of SMPL-X's body, hands and jaw, a face, place and betas   |
 /// | 263       | HumanML3D | how the root moves, places seen from it, 6D, speeds, contacts    |
 ///
-/// Of HumanML3D only positions are read (joint_arrays.h), because its 6D are not rotations of
-/// SMPL's bones.
+/// HumanML3D's 6D are not rotations of SMPL's bones, so only its positions are read
+/// (joint_arrays.h).
 namespace choreo {
 
 /// Reads the motion at its kind's rate or at `reading.fps`, and notes the kind. None if no kind has

@@ -43,8 +43,8 @@ void WriteVrma(const std::filesystem::path& path, const Skeleton& skeleton, cons
 /// Reads the animation that `reading` names, or the first that moves most of a body's bones. The
 /// skeleton is `preferred` (if given), SMPL's or the file's own (own_skeleton.h) if names, parents
 /// and rest offsets (kSameBone) match; any other rig is read as SMPL's body (node_motion.h). The
-/// rate is extras.fps, or else that of the channel with most keys, or 30 if that is below 20,
-/// because so few keys are poses to interpolate. Throws Error(kNotFound) if the file cannot be
+/// rate is extras.fps. Without it, it is the rate of the channel with most keys, or 30 if that rate
+/// is below 20: so few keys are poses to interpolate. Throws Error(kNotFound) if the file cannot be
 /// opened; Error(kInvalidArgument), whose field is the path and whose message names the part, if it
 /// is no glTF, or has no animation, compressed accessors, data outside its buffer, data in other
 /// files, or more than a million frames; UnknownBones if its names do not identify enough bones.

@@ -16,8 +16,8 @@ struct GltfTrack {
   std::vector<float> turns;   ///< x y z w, frame after frame, or one for all frames
   std::vector<float> places;  ///< x y z, frame after frame; empty if the node stays in place
 
-  /// Adds a frame's rotation. Chooses the quaternion's sign that is nearer to the frame before,
-  /// because readers interpolate linearly between neighbours.
+  /// Adds a frame's rotation, with the quaternion's sign nearer to the frame before: readers
+  /// interpolate linearly.
   void AddTurn(Eigen::Quaterniond turn);
   void AddPlace(const Eigen::Vector3d& place);
 };

@@ -24,9 +24,9 @@ enum class GltfPart {
 tinygltf::Model ParseGltfPart(const nlohmann::ordered_json& document, std::string_view glb,
                               GltfPart part);
 
-/// Reads names, parents and rest positions of all nodes, which of them hold meshes or are joints of
-/// a skin, and their names in the tables of VRM 0.x, VRM 1.0 and VRM animations. Sets `moves` false
-/// for all.
+/// Reads all nodes: names, parents, rest positions, which hold meshes or are joints of a skin, and
+/// the bones that the tables of VRM 0.x, VRM 1.0 or VRM animations name. Sets `moves` false for
+/// all.
 RigNodes ReadRigNodes(const nlohmann::ordered_json& document, const tinygltf::Model& model);
 
 }  // namespace choreo

@@ -18,8 +18,8 @@ namespace choreo {
 struct GltfScene {
   GltfNodes nodes;
   RigNodes rig;  ///< the nodes for finding bones; `moves`: the nodes that the animation moves
-  /// The nodes' world transforms when the first skin with most of the body's bones was bound. None
-  /// without a skin.
+  /// The nodes' world transforms in the bind pose of the first skin that has most of the body's
+  /// bones. None without a skin.
   std::optional<std::vector<Eigen::Affine3d>> bound;
   std::vector<GltfChannel> channels;
   double fps = 0;

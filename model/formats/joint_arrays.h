@@ -15,8 +15,8 @@ namespace choreo {
 /// [..., joints, 3].
 std::optional<NpyArray> FindJointArray(const NpzArchive& npz);
 
-/// Whether an array holds positions: [F, 22 or 24, 3], or the same in a batch of one, with constant
-/// limb lengths, unlike rotation vectors. Considers the first of several people, [people, F, ...].
+/// Whether an array holds positions, [F, 22 or 24, 3] or a batch of one: unlike rotation vectors,
+/// they have constant limb lengths. Considers the first of several people, [people, F, ...].
 bool AreJointPlaces(const NpyArray& array);
 
 /// Fits SMPL's body, at its own size and on the floor, to the positions (fit/fit_clip.h). Notes

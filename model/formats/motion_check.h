@@ -8,8 +8,8 @@
 #include "model/motion/motion.h"
 #include "model/motion/skeleton.h"
 
-/// Checks motions of all formats for plausibility. Corrects and notes certain errors; notes
-/// possible errors with the option that corrects them.
+/// Checks motions of all formats for plausibility. Corrects errors that are certain, with a note;
+/// notes possible errors with the option that corrects them.
 namespace choreo {
 
 /// A motion in the axes and units of its file.
@@ -30,13 +30,13 @@ struct FileMotion {
   bool has_angles = false;
 };
 
-/// Turns the motion Y up, converts its unit to metres, puts the body on the floor if it certainly
-/// is not, and notes motions that do not move or bend impossibly. Throws Error(kInvalidArgument)
+/// Turns the motion Y up, converts its unit to metres, and puts a body that certainly is off the
+/// floor on it. Notes motions that stand still or bend impossibly. Throws Error(kInvalidArgument)
 /// for `reading.up`.
 Motion CorrectMotion(FileMotion file, const MotionReading& reading);
 
 /// The share of frames with an impossible bend (motion/pose_faults.h), 0 to 1. `example`, if given,
-/// receives a fault of the first of them.
+/// receives a fault of the first such frame.
 double ShareOfFaults(const Skeleton& skeleton, const Motion& motion,
                      std::string* example = nullptr);
 

@@ -9,8 +9,7 @@
 
 namespace choreo {
 
-/// Options for reading motion files that leave something open or state it wrongly. All are
-/// optional.
+/// Says what a motion file leaves open or states wrongly. All members are optional.
 struct MotionReading {
   /// The file's axis that points up, such as "z" or "-y"; empty: the format's, unless the body
   /// would then lie.
@@ -28,7 +27,7 @@ struct MotionReading {
   /// If given, receives one line for each deviation from the file and for each suspicious fact.
   std::vector<std::string>* notes = nullptr;
 
-  /// Whether bones, axes or units are chosen. If so, even our own files are not read unchanged.
+  /// Whether bones, axes or units are chosen. Then even our own files are read like any rig's.
   bool chooses() const {
     return !bones.empty() || !body.empty() || !up.empty() || scale > 0 || !angles.empty();
   }

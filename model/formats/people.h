@@ -14,8 +14,8 @@ namespace choreo {
 /// satisfy `is_frame`: the smaller extent. 1 for an array of one person.
 int64_t PeopleIn(const NpyArray& array, const std::function<bool(int64_t width)>& is_frame);
 
-/// The person to read: the one of --body, or the first, with a note. Throws
-/// Error(kInvalidArgument), whose field is --body.
+/// The person to read: --body's, or the first, with a note. Throws Error(kInvalidArgument), whose
+/// field is --body.
 int64_t ChoosePerson(int64_t people, const std::string& key, const MotionReading& reading);
 
 /// Whether one of an array's first two extents is `people`.

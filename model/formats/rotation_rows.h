@@ -9,7 +9,7 @@
 
 namespace choreo {
 
-/// Whether an array of this width may hold the rotations of one of these numbers of `joints`.
+/// Whether rows of this width may hold rotations of as many joints as one of `joints`.
 bool AreRotations(int64_t width, const std::vector<int64_t>& joints);
 
 /// Rotation vectors [3 * joints, frames], and whether the file states rotation vectors, whose
@@ -19,14 +19,14 @@ struct RotationRows {
   bool are_vectors = false;
 };
 
-/// Converts rotations of any form, for one of these numbers of `joints` per frame, to rotation
-/// vectors. The forms are vectors [F, 3 J] or [F, J, 3]; matrices [F, J, 3, 3], [F, J, 9] or [F, 9
-/// J]; 6D, [F, J, 6] or [F, 6 J], the first two rows of a matrix as in PyTorch3D or, if knees and
-/// elbows would bend the wrong way, its first two columns as Zhou et al. 2019 do, or these
-/// interleaved as [F, J, 3, 2]; quaternions, [F, J, 4] or [F, 4 J] of several joints, whose real
-/// part is first or last, whichever is larger. A batch of one may precede F, and a single frame
-/// needs no F. Throws Error(kInvalidArgument), naming the array, its shape or the invalid rotation,
-/// and for 6D whose vectors are far from orthonormal.
+/// Converts rotations of any form, of as many joints as one of `joints`, to rotation vectors. The
+/// forms are vectors [F, 3 J] or [F, J, 3]; matrices [F, J, 3, 3], [F, J, 9] or [F, 9 J]; 6D, [F,
+/// J, 6] or [F, 6 J], the first two rows of a matrix as in PyTorch3D or, if knees and elbows would
+/// bend the wrong way, its first two columns as Zhou et al. 2019 do, or these interleaved as [F, J,
+/// 3, 2]; quaternions, [F, J, 4] or [F, 4 J] of several joints, whose real part is first or last,
+/// whichever is larger. A batch of one may precede F, and a single frame needs no F. Throws
+/// Error(kInvalidArgument), naming the array, its shape or the invalid rotation, and for 6D whose
+/// vectors are far from orthonormal.
 RotationRows ReadRotationRows(const NpzArchive& npz, const std::string& key,
                               const std::vector<int64_t>& joints);
 

@@ -25,7 +25,7 @@ struct KeyReached {
   /// The largest acceleration of any joint within two frames of the key, m/s^2. Only reports have
   /// it.
   double max_acceleration = 0;
-  /// What hands do at the key, if it says so. Only events have it.
+  /// The hands' pose at the key, if the key sets one. Only events have it.
   std::optional<HandPose> hands = {};
 };
 
@@ -62,8 +62,8 @@ struct Beat {
   int64_t frame = 0;  ///< once reported: the nearest danced frame
   double time_s = 0;  ///< exact
   Source source = Source::kUnknown;
-  /// How much more begins on the beats around it, or on those that predicted it, than elsewhere: 0
-  /// to 1. 1 if given.
+  /// How much stronger onsets are on the beats around it, or on the beats that predicted it, than
+  /// elsewhere: 0 to 1. 1 if given.
   double confidence = 1;
   bool downbeat = false;  ///< begins a bar, as far as known
 };
@@ -95,12 +95,12 @@ struct Warning {
   int64_t frame = 0;
   std::string message = {};  ///< names the value and the limit
   Code code = Code::kUnknown;
-  /// Of the key at `frame`, or of the one that the dance is on its way to; empty if about none.
+  /// Id of the key at `frame`, or of the next key; empty if the warning is about no key.
   std::string key_id = {};
   double figure = 0, limit = 0;  ///< what `message` compares; 0 if it compares none
 };
 
-/// A Beat comes with the frame that it is in.
+/// A Beat comes with its frame.
 using DanceEvent = std::variant<KeyReached, KeyRejected, Warning, Beat>;
 
 }  // namespace choreo

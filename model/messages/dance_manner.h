@@ -9,8 +9,8 @@
 #include "model/core/limits.h"
 #include "model/core/passage.h"
 
-/// The parts of a request about a dance and its music. Server, projects, reports and edits share
-/// them. client::DanceConfig has members of the same names.
+/// The parts of a request that say how to dance and what is known of the music. Server, projects,
+/// reports and edits share them; client::DanceConfig has members of the same names.
 namespace choreo {
 
 /// How to dance. Empty: not stated. docs/extending.md says what another setting needs.
@@ -19,12 +19,12 @@ struct DanceManner {
   std::string style = {};                  ///< one of the model's; empty: any
   /// 0 to 1: how closely the dance's energy follows the music's; none: kDefaultDynamics.
   std::optional<double> music_dynamics = {};
-  /// 0 to 1: how much a repeated passage's dance differs from that of the passage it repeats; none:
+  /// 0 to 1: how much the dance to a repeated passage differs from the dance to the original; none:
   /// kDefaultVariation.
   std::optional<double> variation = {};
 
-  /// Calls `visit(name, setting...)` for each setting, as the API calls it, with those of these
-  /// manners, or requests that have the same members.
+  /// Calls visit(API name, the member of each argument...) once per setting. Arguments: structs
+  /// with these members.
   static void VisitSettings(const auto& visit, auto&&... each) {
     visit("temperature", each.temperature...);
     visit("style", each.style...);
@@ -40,7 +40,7 @@ struct DanceManner {
   void SetIn(auto* request) const {
     VisitSettings([](const char*, const auto& from, auto& to) { to = from; }, *this, *request);
   }
-  /// States what is not stated as `other` does.
+  /// Takes `other`'s values for the settings that are empty here.
   void FillFrom(const DanceManner& other) {
     const auto fill = [](const char*, const auto& from, auto& to) {
       if (to == std::remove_cvref_t<decltype(to)>()) to = from;
@@ -54,20 +54,20 @@ struct DanceManner {
 
 /// Facts about a dance's music that are known before it starts.
 struct KnownMusic {
-  /// Times of its beats, seconds, strictly ascending, 0 to 600: limbs are fastest on them, and
-  /// events and the report contain them. Empty: a server finds them in a file, and predicts those
-  /// of each transition from the 12 s of samples before it.
+  /// Times of its beats, seconds, strictly ascending, 0 to 600. Limbs are fastest on beats; events
+  /// and the report contain them. Empty: a server finds the beats of a file; for samples it
+  /// predicts each transition's beats from the 12 s before it.
   std::vector<double> music_beats = {};
-  std::vector<double> music_downbeats = {};  ///< those that begin a bar; reported, not danced
+  std::vector<double> music_downbeats = {};  ///< beats that begin a bar; reported, not danced
   /// Identifies the music (MusicId). Each transition's seed is the dance's XOR this, so two songs
   /// differ as two seeds do. 0: unknown; a server computes it for a file.
   uint64_t music_id = 0;
-  /// Passages that repeat earlier ones (CheckPassages), and the dance with them. Empty: a server
-  /// finds them in a file.
+  /// Passages that repeat earlier ones (CheckPassages); the dance repeats with them. Empty: a
+  /// server finds a file's.
   std::vector<Passage> music_passages = {};
-  /// How energetic the whole song is, every half second (SongEnergies in audio/music_dynamics.h),
-  /// at most kMaxEnergy either way: a transition moves with its own music. Empty: a server finds
-  /// them in a file; in samples it hears what precedes each transition.
+  /// The energy of the whole song, every half second (SongEnergies in audio/music_dynamics.h), at
+  /// most kMaxEnergy either way. A transition then has its own music's energy. Empty: a server
+  /// measures a file's; for samples it takes the energy before each transition.
   std::vector<float> music_energies = {};
 
   static KnownMusic Of(const auto& request) {

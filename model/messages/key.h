@@ -18,7 +18,7 @@ struct AtFrame {
 struct AtTime {
   double seconds = 0;  ///< absolute
 };
-/// Relative to the key of the previous keyframe message (to frame 0 for the first).
+/// Frames after the key of the previous keyframe message; for the first message, after frame 0.
 struct AfterPrevious {
   int64_t frames = 0;
 };
@@ -30,7 +30,8 @@ struct Key {
   int64_t frame = 0;
   Pose pose = {};
   PoseMask mask = {};
-  /// How hard it is hit, 0 to kMaxHit (model/core/hit.h), and then rested in. None: it is passed.
+  /// How hard the dancer hits it, 0 to kMaxHit (model/core/hit.h), coming to rest in it. None: the
+  /// dance passes through it.
   std::optional<double> hit = {};
   std::optional<HandPose> hands = {};  ///< KeyReached::hands
 

@@ -21,7 +21,7 @@ struct ModelDescription {
   double fps = kModelFps;
   int history_frames = 0;  ///< past frames that it conditions on
   double default_temperature = 0;
-  std::vector<std::string> controls = {};  ///< of the names in kControls (motion/controls.h)
+  std::vector<std::string> controls = {};  ///< names of kControls (motion/controls.h)
   std::vector<VelocityReference> velocity_references = {};  ///< the first is the default
   std::vector<std::string> styles = {};                     ///< that a request may name
   std::optional<StyleFigures> style_figures = {};           ///< none: not measured
@@ -29,7 +29,7 @@ struct ModelDescription {
   bool likelihood = false;     ///< reports include one, and candidates can be ranked by it
   bool deterministic = false;  ///< seed and temperature have no effect; it rests without a next key
   double audio_lead_s = 0;     ///< music that a transition needs before its first frame
-  int latency_frames = 0;      ///< how far the music must be ahead of the frame being made
+  int latency_frames = 0;  ///< how far the music must be ahead of a frame, in the model's frames
   int max_transition_frames = 0;  ///< per transition; includes the server's own limit
 };
 

@@ -23,8 +23,8 @@ struct QualityReport {
   int64_t frames = 0;
   std::vector<KeyReached> keys = {};
   int64_t measured_from = 0;  ///< the first frame that the figures below cover
-  /// Log-likelihood of what the model proposed, nats a frame, in its own standardised space; absent
-  /// if the model has no exact likelihood.
+  /// Log-likelihood of the model's own frames, nats a frame, in its standardised space; absent if
+  /// the model has no exact likelihood.
   std::optional<double> log_likelihood = {};
   /// Share of the steps (pairs of successive frames) in which either foot skates: its toe joint is
   /// below 5 cm in both frames and moves faster than 0.2 m/s over the floor.

@@ -7,8 +7,8 @@
 #include "model/motion/support.h"
 
 /// Measures whether a dancer seems to have weight: whether the feet support the body, and whether
-/// it pushes off, falls and lands like a real one. Pure functions of joint positions, which measure
-/// real motion in the same way. Thread-safe.
+/// it pushes off, falls and lands like a real one. Pure functions of joint positions, of generated
+/// and real motion alike. Thread-safe.
 namespace choreo {
 
 /// The floor's height, metres: the 5th percentile over frames of the lower foot, where a foot is
@@ -26,8 +26,8 @@ struct WeightFigures {
   /// Median vertical acceleration of the centre of mass in those frames, m/s^2: -9.81 for a jump, 0
   /// for a floating body; NaN without such frames.
   double hover_acceleration = 0;
-  /// The longest time without any joint within 15 cm of the floor, seconds. Flights do not count:
-  /// times in which the centre of mass accelerates downwards by more than kThrown on average.
+  /// The longest time without any joint within 15 cm of the floor, seconds. Does not count flights,
+  /// in which the centre of mass accelerates downwards by more than kThrown on average.
   double longest_hover_s = 0;
   double zmp_outside = 0;  ///< share of frames with the zero moment point > 15 cm outside the feet
   double centre_outside = 0;  ///< share of frames with the centre of mass > 10 cm outside the feet

@@ -19,8 +19,8 @@ struct CriticWindows {
   void Add(const JointTrack& track, double fps, size_t clip);
 };
 
-/// The area under the ROC curve: the probability that a random value of `high` exceeds a random one
-/// of `low`, where ties count half. 0.5 is chance, 1 perfect. NaN if either is empty.
+/// The area under the ROC curve: the probability that a random value of `high` exceeds a random
+/// value of `low`; ties count half. 0.5 is chance, 1 perfect. NaN if either is empty.
 double AreaUnderCurve(const std::vector<double>& high, const std::vector<double>& low);
 
 inline constexpr int kCriticProjections = 128;
@@ -31,8 +31,8 @@ inline constexpr int kCriticProjections = 128;
 double CriticArea(const CriticWindows& real, const CriticWindows& danced,
                   int projections = kCriticProjections);
 
-/// The same for real motion against itself: each clip's windows are split at random between both
-/// sides; mean of five splits. Between 0.45 and 0.55 the critic is fair; otherwise there is too
+/// CriticArea of real motion against itself: splits each clip's windows at random between both
+/// sides; the mean of five splits. Between 0.45 and 0.55 the critic is fair; otherwise there is too
 /// little motion.
 double RealAgainstReal(const CriticWindows& real);
 

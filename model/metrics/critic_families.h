@@ -6,8 +6,8 @@
 #include "model/metrics/critic.h"
 #include "model/motion/skeleton.h"
 
-/// Critics that each see one aspect of a dance. Those that distinguish it from real motion show
-/// what is wrong with it. Only for measuring, like the critic.
+/// Critics that each see one aspect of a dance. A critic that distinguishes it from real motion
+/// shows what is wrong with it. Only for measuring, like the critic.
 namespace choreo {
 
 /// The input of each, in windows of 2 s:

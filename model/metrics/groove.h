@@ -6,11 +6,11 @@
 #include "model/motion/skeleton.h"
 
 /// Distinguishes a lively dance from poses that blend into each other. Pure functions of joint
-/// positions, which measure real motion in the same way. Thread-safe.
+/// positions, of generated and real motion alike. Thread-safe.
 namespace choreo {
 
-/// The distances that wrists and ankles travel and need to travel: sums over the four of them and
-/// over the spans between keys, metres. Path over chord is 1 for straight travel from key to key.
+/// The distances that wrists and ankles travel, and need to travel: sums over these four joints and
+/// all spans between keys, metres. Path over chord is 1 for straight travel from key to key.
 struct LimbTravel {
   double path = 0;   ///< frame by frame, in the world
   double chord = 0;  ///< straight from key to key

@@ -11,7 +11,7 @@ namespace choreo {
 
 /// L2P: the distance of global joint positions, mean over joints and frames, metres. Paper F, Eq.
 /// 10 (after Harvey et al. 2020) takes the norm over all joints together. The mean per joint is
-/// easier to interpret, and its ratios to a baseline are similar.
+/// easier to interpret, and has similar ratios to a baseline.
 double L2P(const JointTrack& danced, const JointTrack& real);
 
 /// Key pose distance, paper F, 4.5.3: the mean *squared* distance of joint positions, m^2, of two

@@ -9,7 +9,7 @@ namespace choreo {
 
 /// The faults of long synthesis (paper C, Section 4.2, Figure 10: "repeated meaningless actions"
 /// beyond 200 frames), found by comparing a motion with its own past. Shares of half-second
-/// windows, 0 to 1. Compare them with those of real dance.
+/// windows, 0 to 1. Compare them with real dance's.
 struct Repetition {
   /// Windows that hold still: no joint moves faster than 0.15 m/s relative to the root, averaged
   /// over the window.
@@ -19,9 +19,9 @@ struct Repetition {
   double repeated = 0;
 };
 
-/// Measures all windows, or only those that begin at frame `from` or later; earlier frames are then
-/// only the past that they may repeat. Throws Error(kInvalidArgument) if no window begins there.
-/// Moving or turning the scene changes nothing. Pure, thread-safe.
+/// Measures the windows that begin at frame `from` or later; they may repeat earlier frames, too.
+/// Throws Error(kInvalidArgument) if no window begins there. Moving or turning the scene changes
+/// nothing. Pure, thread-safe.
 Repetition MeasureRepetition(const Skeleton& skeleton, std::span<const Pose> poses, double fps,
                              int from = 0);
 

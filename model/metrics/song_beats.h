@@ -21,8 +21,8 @@ std::vector<double> SongBeats(const Eigen::MatrixXf& rows, double fps);
 double BeatAlignmentScore(std::span<const float> speeds, std::span<const double> music_beats,
                           double fps);
 
-/// The F measure of found beats: one within 70 ms of a known beat is a hit (Davies et al. 2009).
-/// Both in seconds, ascending. Counts only beats in [from, to). 1 if there are none.
+/// The F measure of found beats: a beat within 70 ms of a known beat is a hit (Davies et al. 2009).
+/// `found`, `known`: seconds, ascending. Counts only beats in [from, to). 1 if there are none.
 double BeatFMeasure(std::vector<double> found, std::vector<double> known, double from = 0,
                     double to = 1e9);
 

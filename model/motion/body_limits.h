@@ -25,14 +25,14 @@ struct FastStep {
   size_t to = 0;  ///< the index of the later pose
 };
 
-/// Finds the fastest step in `poses`, the first of which follows `before`.
+/// Finds the fastest step from `before` through `poses`.
 FastStep FindFastestStep(const Skeleton& skeleton, const Pose& before, std::span<const Pose> poses,
                          double fps);
 
-/// The larger of two ratios: the fastest joint's speed over kFastestJoint, and the mean speed over
-/// kFastestBody. `speeds`: of all joints, metres per second.
+/// The larger of two ratios: the fastest joint's speed over kFastestJoint, and the joints' mean
+/// speed over kFastestBody. `speeds`: [joints], metres per second.
 double SpeedExcess(const Eigen::RowVectorXd& speeds);
-/// The largest SpeedExcess of the steps to each of `poses`, the first of which follows `before`.
+/// The largest SpeedExcess of the steps from `before` through `poses`.
 double SpeedExcess(const Skeleton& skeleton, const Pose& before, std::span<const Pose> poses,
                    double fps);
 

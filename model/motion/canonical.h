@@ -7,9 +7,9 @@
 
 namespace choreo {
 
-/// A frame of reference on the floor: its origin is below a dancer's root, and its +Z axis points
-/// along the heading. A transition's canonical frame is that of its last history pose, so that
-/// moving or turning the scene moves the dance and changes nothing else.
+/// A frame of reference on the floor: its origin is below a dancer's root, and +Z is the root's
+/// heading. A transition's canonical frame belongs to its last history pose, so moving or turning
+/// the scene only moves or turns the dance.
 struct GroundFrame {
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< y = 0
   double heading = 0;                                ///< radians about +Y, 0 = +Z

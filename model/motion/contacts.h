@@ -14,8 +14,8 @@ namespace choreo {
 inline constexpr double kDownHeight = 0.04, kUpHeight = 0.07;
 
 /// Detects foot contacts frame by frame. A foot joint touches down when it is both low and slow. It
-/// lifts off when it exceeds higher thresholds of height or speed, so contacts depend on earlier
-/// frames, too. Heights are relative to the joint's own at rest. Not thread-safe.
+/// lifts off above higher thresholds of height or speed (hysteresis), so contacts depend on earlier
+/// frames. Heights are relative to the joint's own at rest. Not thread-safe.
 class ContactDetector {
  public:
   /// Throws Error(kInvalidArgument) if the skeleton lacks a foot joint.

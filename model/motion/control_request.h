@@ -9,8 +9,8 @@
 
 namespace choreo {
 
-// The requests of controls, with the fields of the API's messages, of which one is `frames`, at the
-// model's rate. dance/controls/control_track.h validates them.
+// Control requests, with the fields of the API's messages. `frames` are at the model's rate.
+// dance/controls/control_track.h validates requests.
 
 /// Where the root goes: at least 2 points in time, metres, world frame. Either one in every
 /// frame, or a few with a smooth curve through them. Keys override it.
@@ -19,13 +19,13 @@ struct RootPath {
   std::vector<Eigen::Vector2d> points = {};  ///< (x, z) at each
   std::vector<double> heights = {};          ///< of the root at each; empty: the model chooses
 
-  /// Calls `visit(name, field)` for each field, as the API calls it.
+  /// Calls visit(API name, field) for each field.
   static void VisitFields(auto& path, const auto& visit) {
     visit("frames", path.frames);
     visit("points", path.points);
     visit("heights", path.heights);
   }
-  /// Whether there is a place at each frame.
+  /// Whether each frame has a point and, if there are heights, a height.
   bool IsWhole() const {
     return frames.size() >= 2 && points.size() == frames.size() &&
            (heights.empty() || heights.size() == frames.size());
@@ -58,7 +58,7 @@ struct VelocityRequest {
   }
 };
 
-/// Something of each row of kControls (motion/controls.h).
+/// One `Of<Request>` member per control, in the order of kControls (motion/controls.h).
 template <template <typename Request> typename Of>
 struct EachControl {
   using RootPath = choreo::RootPath;
@@ -67,7 +67,7 @@ struct EachControl {
   Of<RootPath> root_path = {};
   Of<VelocityFactors> velocity_factors = {};
 
-  /// Calls `visit(row, one...)` for each row with what these have of it; `row`: its number.
+  /// Calls visit(row number, the member of each argument...) once per row.
   static void VisitControls(const auto& visit, auto&... each) {
     visit(0, each.root_path...);
     visit(1, each.velocity_factors...);

@@ -7,8 +7,7 @@
 
 namespace choreo {
 
-/// A pose in paper C's form (Section 3.1), turned to face +Z. It separates the body's pose from its
-/// place and heading.
+/// A pose in paper C's form (Section 3.1): place, heading, and the body turned to face +Z.
 struct FacingPose {
   Eigen::Vector3d root = Eigen::Vector3d::Zero();  ///< p^r, metres
   double heading = 0;       ///< o^r, radians about +Y; 0 faces +Z, as in GroundFrame

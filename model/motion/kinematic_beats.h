@@ -6,9 +6,9 @@
 
 namespace choreo {
 
-/// Smooths a curve of mean joint speeds (paper F, 4.5.1) with a Gaussian of 1/12 s, as the usual
-/// evaluation of AIST++ does (Siyao et al. 2022: 5 frames at 60 fps), so that jitter does not count
-/// as beats. `fps` > 0.
+/// Smooths a curve of mean joint speeds (paper F, 4.5.1) with a Gaussian of 1/12 s, so that jitter
+/// makes no beats. AIST++'s usual evaluation does so (Siyao et al. 2022: 5 frames at 60 fps). `fps`
+/// > 0.
 std::vector<double> SmoothSpeeds(std::span<const float> speed, double fps);
 
 /// Frames of the kinematic beats: the local maxima of the smoothed curve (a plateau counts once, at

@@ -24,8 +24,8 @@ Eigen::Matrix3Xd JointPositions(const Skeleton& skeleton, const Pose& pose);
 
 /// Forward kinematics into `placement`, without allocation if it already has the skeleton's size.
 void ForwardKinematics(const Skeleton& skeleton, const Pose& pose, JointPlacement& placement);
-/// Forward kinematics of a root position, metres, and local rotation matrices, [3, 3 * joints],
-/// side by side.
+/// Forward kinematics from a root position, metres, and the joints' local rotation matrices side by
+/// side, [3, 3 * joints].
 void ForwardKinematics(const Skeleton& skeleton, const Eigen::Vector3d& root,
                        const Eigen::Ref<const Eigen::Matrix3Xd>& local, JointPlacement& placement);
 

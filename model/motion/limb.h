@@ -24,15 +24,15 @@ struct BendRange {
   double least = -M_PI, most = M_PI;
 };
 
-/// The bends that a limb bent by `bend` may reach within `seconds`. In a nearly straight limb,
-/// moving the end by a centimetre changes the bend by ten degrees, which would snap in one frame.
+/// The bends that a limb bent by `bend` may reach within `seconds`. A nearly straight limb bends by
+/// ten degrees when its end moves by a centimetre; in one frame that would be a snap.
 BendRange NextBend(double bend, double seconds);
 
 /// Two-bone inverse kinematics: turns the upper two joints so that the end reaches `goal`, given
 /// relative to the upper joint, and keeps the end's global rotation. A bent limb bends in its
 /// present plane, a straight one about `hinge`, the world direction of its natural axis. The result
 /// is continuous in pose and goal. Near full length the end may miss the goal by a centimetre; if
-/// the goal needs a bend outside `range`, the limb points at it. `placement` is that of `pose` and
+/// the goal needs a bend outside `range`, the limb points at it. `placement` must be `pose`'s, and
 /// is stale afterwards. Returns the bend, radians.
 double PlaceEnd(const Limb& limb, const Eigen::Vector3d& hinge, const Skeleton& skeleton,
                 const JointPlacement& placement, const Eigen::Vector3d& goal, Pose* pose,
@@ -42,14 +42,14 @@ double PlaceEnd(const Limb& limb, const Eigen::Vector3d& hinge, const Skeleton& 
 struct Leg {
   int hip = -1, knee = -1, ankle = -1, toes = -1;
 
-  /// Whether both legs of the skeleton are such chains.
+  /// Whether the skeleton's legs are chains of these joints.
   static bool In(const Skeleton& skeleton);
-  /// The left and the right leg of a skeleton that has them.
+  /// The left and the right leg. Requires In(skeleton).
   static std::array<Leg, 2> Of(const Skeleton& skeleton);
 };
 
-/// The distance from the hip that the ankle would have with the toes at `toes` and the foot's
-/// present rotation, over the length of thigh and shin. Below 1 the leg can reach it.
+/// The distance from hip to ankle over the length of thigh and shin, with the toes moved to `toes`
+/// and the foot's rotation kept. Below 1 the leg reaches them.
 double Reach(const Leg& leg, const JointPlacement& placement, const Eigen::Vector3d& toes);
 
 /// Returns `toes`, or the nearest point at which Reach is at most `most` or, if that is larger, the

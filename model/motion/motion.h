@@ -27,17 +27,16 @@ struct Motion {
   std::vector<Pose> frames;
 };
 
-/// Rewrites every rotation vector on the branch nearest to `previous`'s. The rotations themselves
-/// do not change.
+/// Puts every rotation vector on the branch nearest to `previous`'s. The rotations do not change.
 void MakeContinuous(Pose& pose, const Pose& previous);
 
 /// Makes each frame continuous with the one before. The first frame stays unchanged.
 void MakeContinuous(Motion& motion);
 
-/// Returns the same pose with each rotation vector on the branch nearest to `previous`'s among
-/// those whose quaternion (QuaternionFromExp) has a non-negative product with `previous`'s. So
-/// quaternions never flip sign between frames. The vectors equal MakeContinuous's except around
-/// whole turns about a tilting axis, where no choice is continuous in time. Pure, thread-safe.
+/// Returns the same pose with quaternions (QuaternionFromExp) that never flip sign from
+/// `previous`'s: their product is not negative. Among such branches, each rotation vector takes the
+/// one nearest to `previous`'s. The vectors equal MakeContinuous's, except around whole turns about
+/// a tilting axis, where no choice is continuous in time. Pure, thread-safe.
 Pose KeepSigns(Pose pose, const Pose& previous);
 
 /// The degrees of freedom of a pose that a key constrains.

@@ -17,8 +17,8 @@ struct PathPoint {
 /// The cubic from `from` to `to` over `duration` frames, evaluated `t` frames after its start.
 PathPoint CubicBetween(const PathPoint& from, const PathPoint& to, double duration, double t);
 
-/// The curve through a path's points: piecewise cubic in time, with continuous velocity. The
-/// velocity at a point is that of the parabola through it and its neighbours, limited to three
+/// The curve through a path's points: piecewise cubic in time, with continuous velocity. At a
+/// point, the velocity is the slope of the parabola through it and its neighbours, at most three
 /// times the speed of the slower adjacent leg. So the curve rests between equal points and does not
 /// overshoot far. Moving or turning the points moves or turns the curve. Immutable.
 class PathCurve {

@@ -18,7 +18,7 @@ inline constexpr double kMaxJumpHeight = 1.2;  ///< metres from the floor to the
 std::vector<std::string> PoseFaults(const Skeleton& skeleton, const Pose& pose,
                                     const PoseMask& mask = {});
 
-/// The faults of knees and elbows alone, which bend farther than any body's, backwards or folded.
+/// The faults of knees and elbows alone: bent backwards or folded farther than any body bends.
 std::vector<std::string> BendFaults(const Skeleton& skeleton, const Pose& pose,
                                     const PoseMask& mask = {});
 

@@ -22,7 +22,7 @@ Pose InterpolatePoses(const Pose& a, const Pose& b, double t);
 Pose PoseAt(const Motion& motion, double time);
 
 /// Resamples a motion to `fps`, from 1e-3 to 1e4: frame i is PoseAt(i / fps), for as many frames as
-/// fit into the duration. Branches stay continuous. Frames that fall on source frames equal them up
+/// fit into the duration. Branches stay continuous. A frame at a source frame's time equals it up
 /// to whole turns. Throws Error(kInvalidArgument) for a rate outside the limits.
 Motion Resample(const Motion& motion, double fps);
 

@@ -26,8 +26,8 @@ Eigen::Vector3d LogMap(const Eigen::Matrix3d& r);
 Eigen::Quaterniond QuaternionFromExp(const Eigen::Vector3d& w);
 Eigen::Vector3d ExpFromQuaternion(const Eigen::Quaterniond& q);
 
-/// The vector nearest to `previous` that stands for the same rotation as `w` (whole turns about the
-/// axis added).
+/// The vector nearest to `previous` that is the same rotation as `w`, plus whole turns about its
+/// axis.
 Eigen::Vector3d NearestBranch(const Eigen::Vector3d& w, const Eigen::Vector3d& previous);
 
 /// Shortest-arc interpolation for t in [0, 1]; extrapolates outside.
@@ -45,8 +45,8 @@ Eigen::Matrix3d RightJacobian(const Eigen::Vector3d& w);
 /// log(exp(a) exp(delta)), on the branch nearest to a.
 Eigen::Vector3d RotationCompose(const Eigen::Vector3d& a, const Eigen::Vector3d& delta);
 
-/// The rotation with the same end the other way round, by 2 pi minus the angle. `turn` itself if it
-/// is nearly zero, because its axis is then noise.
+/// The same rotation the other way round, by 2 pi minus the angle. `turn` itself if it is nearly
+/// zero, because its axis is then noise.
 Eigen::Vector3d OtherWayRound(const Eigen::Vector3d& turn);
 /// `turn` or OtherWayRound(turn), whichever is nearer to `expected`.
 Eigen::Vector3d NearerWayRound(const Eigen::Vector3d& turn, const Eigen::Vector3d& expected);

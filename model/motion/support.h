@@ -32,10 +32,10 @@ inline double MomentLever(double height, double rise) {
 /// The point of the convex hull of `others` (at least one) that is nearest to `point`; `point`
 /// itself if it is inside.
 Eigen::Vector2d NearestInHull(const Eigen::Vector2d& point, std::vector<Eigen::Vector2d> others);
-/// The vector to that point, metres, shortened by `slack`; zero if it is no longer than that.
+/// The vector to NearestInHull, metres, shortened by `slack`; zero if `slack` is longer.
 Eigen::Vector2d WayToHull(const Eigen::Vector2d& point, std::vector<Eigen::Vector2d> others,
                           double slack);
-/// The distance to that point, metres; infinite without others.
+/// The distance to NearestInHull, metres; infinite without others.
 double DistanceToHull(const Eigen::Vector2d& point, std::vector<Eigen::Vector2d> others);
 
 /// The points of a body from which balance is measured.
@@ -84,7 +84,7 @@ class BalanceGauge {
   std::array<int, 4> feet_;
   Eigen::VectorXd weights_;
   double floor_;
-  // Weights of the frames from kReach before to kReach after, in the smoothed centre and in its
+  // Weights of the frames from kReach before to kReach after: in the smoothed centre, and in its
   // second derivative.
   std::array<double, 2 * kReach + 1> smooth_ = {};
   std::array<double, 2 * kReach + 1> bend_ = {};

@@ -23,7 +23,7 @@ inline constexpr std::array<std::string_view, kBodyParts> kBodyPartNames = {
 /// All of them, for messages: "trunk, left_arm, ...".
 std::string BodyPartNames();
 
-/// The part with that name, or none.
+/// The part with this name, or none.
 std::optional<BodyPart> FindBodyPart(std::string_view name);
 
 /// A model's usual speeds, to which multipliers of velocity factors refer.
@@ -36,8 +36,8 @@ struct VelocityReference {
 inline constexpr float kMaxVelocityFactor = 10;  ///< as a multiple of a reference
 inline constexpr float kMaxVelocity = 0.5F;      ///< metres a frame
 
-/// Added to the energy of body parts without a velocity factor: to EnergyLevel
-/// (flow/motion_prior.h) of the frames before and of those to come.
+/// Added to the EnergyLevel (flow/motion_prior.h) of body parts without a velocity factor, in the
+/// frames before and in the frames to come.
 struct EnergyShift {
   double before = 0, now = 0;
 };
@@ -58,15 +58,15 @@ using BodyPartWeights = Eigen::Matrix<double, kBodyParts, Eigen::Dynamic>;
 BodyPartWeights WeighBodyParts(const Skeleton& skeleton);
 
 /// The speeds of one frame (paper C's velocity factors), metres a frame, each at least 0: for each
-/// part the weighted mean of its joints' speeds since the frame before. The root's speed is that of
-/// its world position; other joints' speeds are of their positions relative to the root, along
-/// world axes (the paper's p_t^r, p_t^b). Positions are [3, joints], metres, joint 0 the root.
-/// Thread-safe; moving or turning the scene does not change them.
+/// part the weighted mean of its joints' speeds since the frame before. The root moves in the
+/// world, other joints relative to the root along world axes (the paper's p_t^r, p_t^b). Positions
+/// are [3, joints], metres, joint 0 the root. Thread-safe; moving or turning the scene does not
+/// change them.
 std::array<double, kBodyParts> PartSpeeds(const BodyPartWeights& weights,
                                           const Eigen::Matrix3Xd& positions_before,
                                           const Eigen::Matrix3Xd& positions);
 
-/// Their mean over the steps of a motion of at least two poses.
+/// The mean PartSpeeds over the steps of a motion of at least two poses.
 std::array<double, kBodyParts> MeanPartSpeeds(const Skeleton& skeleton,
                                               std::span<const Pose> poses);
 

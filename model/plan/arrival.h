@@ -24,7 +24,7 @@ class Arrival {
 
   /// `window`: in frames, at most the transition's. `before`: the poses before frame 0, at least
   /// one, oldest first. `after`: the pose one frame after the key, if the following motion is known
-  /// (edits of one interval, loops). The path then arrives with the velocity towards it.
+  /// (edits of one interval, loops). The path then arrives with the velocity towards `after`.
   Arrival(int window, int transition_frames, const Target& target, const std::vector<Pose>& before,
           const std::optional<Pose>& after = std::nullopt, Lead lead = Lead::kWithModel);
 

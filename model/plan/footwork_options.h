@@ -7,7 +7,8 @@ namespace choreo {
 
 /// Settings of footwork (model/plan/footwork.h). Stored in the model's checkpoint.
 struct FootworkOptions {
-  /// Cost of a step, in square metres of the toes' distance from the plan for one frame.
+  /// Cost of a step, in the unit of the toes' squared distances from the plan, summed over frames:
+  /// square metres.
   double step_cost = 0.05;
   double flight_cost = 0.3;     ///< cost of a frame without a foot on the floor, in the same unit
   double shortest_step = 0.15;  ///< seconds in the air

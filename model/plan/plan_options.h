@@ -11,8 +11,8 @@ namespace choreo {
 struct PlanOptions {
   /// How much time may speed up or slow down to align the dancer's beats with the music's.
   double accent = 0.5;
-  double whole_accent = 1;   ///< seconds: shorter transitions, which keys dominate, get less accent
-  double fastest = 1.0 / 3;  ///< seconds between beats: faster beats have less effect
+  double whole_accent = 1;       ///< seconds: shorter transitions get less: keys dominate them
+  double fastest = 1.0 / 3;      ///< seconds between beats: faster beats have less effect
   double hinge_softness = 0.03;  ///< radians of bend over which a hinge stops softly
   FootworkOptions footwork = {};
 

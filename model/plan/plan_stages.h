@@ -8,8 +8,8 @@
 #include "model/motion/skeleton.h"
 #include "model/plan/plan_options.h"
 
-/// The stages of a plan between network and arrival (plan/process_plan.h), where the network lacks
-/// the information or a rule does better. Pure functions, thread-safe.
+/// The stages of a plan between network and arrival (plan/process_plan.h), for what the network
+/// does not know or a rule does better. Pure functions, thread-safe.
 namespace choreo {
 
 inline constexpr double kPauseSeconds = 1.5;  ///< least time between beats that is a pause
@@ -27,8 +27,8 @@ struct PlanContext {
   PlanOptions options = {};  ///< from the model's checkpoint
 };
 
-/// Limits knees and elbows, which bend only one way, until folded. Stops each hinge's bend softly
-/// at both ends, and limits its change per frame to NextBend (motion/limb.h).
+/// Limits knees and elbows to bends between straight and folded, with a soft stop at both ends, and
+/// limits their change per frame to NextBend (motion/limb.h).
 void LimitHinges(const PlanContext& context, std::vector<Pose>* plan);
 
 /// Returns the dancer to the floor, which dancers touch at least every few seconds. Lowers or
@@ -40,12 +40,12 @@ void ReturnToFloor(const PlanContext& context, std::vector<Pose>* plan);
 /// beats (paper F, Section 4.2). A root path keeps its positions and heights.
 void TimeToBeats(const PlanContext& context, std::vector<Pose>* plan);
 
-/// For each frame of a plan, the time, in frames, whose pose it takes so that the plan is fastest
-/// on the beats. `speeds`: the speed at which the plan reaches each frame. Aligns the plan's
-/// kinematic beats with the music's by the path through time with the largest sum of speed times
-/// cos(2 pi phase of the beat). The pace of time starts at 1 and stays within 1 - A and 1 + A,
-/// where A is the accent. The last frame keeps its time. Without beats, and where the music pauses,
-/// the pace stays even. `paces`: each frame's fastest pace, at least 1; none: no limit.
+/// For each frame of a plan, the time, in frames, from which to take its pose so that the plan is
+/// fastest on the beats. `speeds`: the speed at which the plan reaches each frame. Aligns the
+/// plan's kinematic beats with the music's by the path through time with the largest sum of speed
+/// times cos(2 pi phase of the beat). The pace of time starts at 1 and stays within 1 - A and 1 +
+/// A, where A is the accent. The last frame keeps its time. Without beats, and where the music
+/// pauses, the pace stays even. `paces`: each frame's fastest pace, at least 1; none: no limit.
 std::vector<double> TimesOnBeats(const PlanContext& context, std::span<const double> speeds,
                                  std::span<const double> paces = {});
 

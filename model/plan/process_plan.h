@@ -14,12 +14,12 @@ struct ProcessedPlan {
   double correction_m = 0;  ///< the farthest that arrival moves a joint, metres
 };
 
-/// Does everything between a network and the frames of a dance, in this order: the plan's stages
-/// (plan_stages.h), unless the model leaves them out; the hit of the key; arrival (arrival.h);
-/// footwork (footwork.h); contacts. `held`: the dancer holds the target's pose, so arrival's path
-/// alone determines the poses. Pauses before each ten seconds of footwork. `model` and `valid` must
-/// outlive the slices. Throws Error(kInternal) for a plan of the wrong length,
-/// and for any value that is not finite.
+/// Turns a network's plan into the frames of a dance, in this order: the plan's stages
+/// (plan_stages.h), for models that have them; the key's hit; arrival (arrival.h); footwork
+/// (footwork.h); contacts. `held`: the dancer holds the target's pose, so arrival's path alone
+/// determines the poses. Pauses before each ten seconds of footwork. `model` and `valid` must
+/// outlive the slices. Throws Error(kInternal) for a plan of the wrong length, and for any value
+/// that is not finite.
 Slices<ProcessedPlan> ProcessPlan(const ModelInfo& model, const ValidSpec& valid, bool held,
                                   Plan plan);
 

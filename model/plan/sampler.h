@@ -21,7 +21,7 @@ struct Plan {
   /// [frames] nats (in the model's standardised space, including log-determinants); empty if the
   /// model has no exact ones.
   std::vector<float> log_likelihoods;
-  int resampled = 0;  ///< frames that it cost beside the first sampling of each
+  int resampled = 0;  ///< frames sampled beside the first sampling of each
 };
 
 /// A model on one device. A plan depends only on model and spec. Not thread-safe: plans are sampled
@@ -32,7 +32,7 @@ class Sampler {
   const ModelInfo& model() const { return model_; }
   const std::string& device() const { return device_; }  ///< "cpu", "cuda:0"
 
-  /// Samples a plan in slices, each short enough for a due frame to wait for it. Spec and sampler
+  /// Samples a plan in slices, each so short that a due frame can wait for it. Spec and sampler
   /// must outlive the slices.
   virtual Slices<Plan> Begin(const ValidSpec& spec) = 0;
 

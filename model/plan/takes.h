@@ -5,11 +5,11 @@
 
 #include "model/core/limits.h"
 
-/// How motion that no dancer would dance is sampled again: a window by the flow's sampler, whose
-/// network may leave human postures, and a whole transition by TransitionRun, since beats, arrival
-/// and footwork change speeds. Each is sampled at most kMaxTakes times, with noise of its own, and
-/// the take with the least excess is kept. Takes nest, and rounds of requested energy nest in them,
-/// so one budget bounds them all: a transition samples at most kMaxTakes times its frames.
+/// Samples motion again that no dancer would dance, with other noise, and keeps the take with the
+/// least excess. The flow's sampler repeats windows, because its network may leave human postures.
+/// TransitionRun repeats whole transitions, because beats, arrival and footwork change speeds. Each
+/// is sampled at most kMaxTakes times. Takes nest, and rounds of requested energy nest in them, so
+/// one budget bounds all: a transition samples at most kMaxTakes times its frames.
 namespace choreo {
 
 inline constexpr int kMaxTakes = 5;
@@ -30,7 +30,7 @@ class SpareFrames {
   static SpareFrames Of(int frames) { return SpareFrames((kMaxTakes - 1) * frames); }
 
   int left() const { return left_; }
-  /// Takes as many frames, if they are left.
+  /// Takes this many frames if they are left.
   bool Spend(int frames) {
     if (frames > left_) return false;
     left_ -= frames;
@@ -47,8 +47,8 @@ class BestTake {
  public:
   /// The number of takes so far, which is the next one's number.
   int takes() const { return takes_; }
-  /// Whether to sample another one, of `frames` frames, which then are spent unless it is the
-  /// first: none is within the limits so far, and takes and spare frames are left.
+  /// Whether to sample another take of `frames` frames: no take is within the limits so far, and
+  /// takes and spare frames are left. Spends the frames of all takes but the first.
   bool Another(int frames, SpareFrames* spare) const {
     return takes_ == 0 || (excess_ > 1 && takes_ < kMaxTakes && spare->Spend(frames));
   }

@@ -7,8 +7,8 @@
 
 namespace choreo {
 
-/// The time in which a foot moves from its previous place to its stance, and from there to the key,
-/// in seconds.
+/// Seconds in which a foot moves from its previous place to its stance, and from its stance to a
+/// key.
 inline constexpr double kSettleSeconds = 0.2;
 
 /// The toes' positions in each frame. During a stance they are at its place. Between stances they

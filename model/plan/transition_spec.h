@@ -110,7 +110,7 @@ struct TransitionSpec {
   /// `variation`, 0 to 1 (FillNormalLike). [frames] or empty.
   std::vector<int64_t> noise_like = {};
   double variation = 0;
-  /// The most frames to sample beside the first sampling of each (plan/takes.h).
+  /// The most frames to sample again (plan/takes.h).
   int spare_frames = 0;
   float temperature = 0.3F;
   std::string style = {};               ///< one of the model's, or empty for any
@@ -120,7 +120,8 @@ struct TransitionSpec {
   bool footwork = true;
 };
 
-/// Throws Error(kInvalidArgument), field "temperature" or "style", unless the model dances so.
+/// Throws Error(kInvalidArgument), field "temperature" or "style", for a value that the model does
+/// not take.
 void CheckManner(const ModelInfo& model, double temperature, const std::string& style);
 
 /// A spec checked against its model.
@@ -131,7 +132,7 @@ class ValidSpec : public Valid<TransitionSpec> {
   /// CheckManner throws.
   ValidSpec(TransitionSpec spec, const ModelInfo& model);
 
-  /// For another take (plan/takes.h).
+  /// Sets the numbers of another take (plan/takes.h).
   void SetTake(uint32_t candidate, int spare_frames) {
     request_.candidate = candidate;
     request_.spare_frames = spare_frames;

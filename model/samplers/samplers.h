@@ -25,16 +25,16 @@ void SetTorchThreads(int threads);
 
 /// Loads a checkpoint once and makes one sampler per device; samplers on the same device share
 /// weights. `kernels`: a PackedKernels::name, which gives packed engines on different CPUs one
-/// fingerprint; empty: the fastest here. It does not affect LibTorch. `notes` gets those of
-/// FirstIndependent (model/engine/loading.h). Throws like ReadSafetensors
-/// and ParseContinuousFlow (model/flow/continuous_flow.h) do, and Error(kInvalidArgument) for a
-/// kind or kernels that the device or machine lacks.
+/// fingerprint; empty: the fastest here. It does not affect LibTorch. `notes` gets
+/// FirstIndependent's notes (model/engine/loading.h). Throws like ReadSafetensors and
+/// ParseContinuousFlow (model/flow/continuous_flow.h) do, and Error(kInvalidArgument) for a kind or
+/// kernels that the device or machine lacks.
 std::vector<std::unique_ptr<Sampler>> MakeSamplers(const std::filesystem::path& checkpoint,
                                                    std::span<const Device> devices,
                                                    EngineKind kind = EngineKind::kAuto,
                                                    const std::string& kernels = "",
                                                    std::vector<std::string>* notes = nullptr);
-/// Which of the settings of MakeSamplers this kind of sampler uses; it ignores the others.
+/// The MakeSamplers settings that this kind of sampler uses; it ignores the others.
 struct UsedSettings {
   bool kind = false;     ///< by flows; LibTorch runs paper C's network and the baseline
   bool kernels = false;  ///< by packed flows

@@ -12,11 +12,11 @@ struct BeatGrid {
   int per_bar = 4;
 };
 
-/// The same beats for a clip that begins `skipped_s` later. Beat 0 is the first one that begins a
-/// bar.
+/// The same beats for a clip that begins `skipped_s` later. Beat 0 is the first beat there that
+/// begins a bar.
 BeatGrid Skip(BeatGrid grid, double skipped_s);
 
-/// The share of the power of the joints' mean speed at this period, 0 to 1. Throws
+/// The share of the joints' mean speed's power that is at this period, 0 to 1. Throws
 /// Error(kInvalidArgument) for a clip with fewer than three frames.
 double SpeedPowerAt(const PositionClip& clip, double period_s);
 

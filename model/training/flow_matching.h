@@ -18,11 +18,10 @@ class FlowMatching {
 
   const FlowModelParts& parts() const { return parts_; }
 
-  /// Computes the losses. All are squared errors, whose minimum is the mean of all possible
-  /// motions: of F in white coordinates, which teaches how dancers move; of the joint positions of
-  /// the motion in which F ends; and of the travel per frame of that motion's feet where real feet
-  /// stand. Times and noise come from torch's generator. The batch's tensors are on the model's
-  /// device.
+  /// Computes the losses. All are squared errors, so their minimum is the mean of all possible
+  /// motions. One is of F in white coordinates, and teaches how dancers move. Two are of the motion
+  /// in which F ends: its joint positions, and its feet's travel per frame where real feet stand.
+  /// Times and noise come from torch's generator. The batch's tensors are on the model's device.
   LossTerms Losses(ContinuousFlow& model, const WindowBatch& batch);
 
  private:

@@ -16,8 +16,8 @@ namespace choreo {
 VariancePowers MeasureVariancePowers(const MotionPrior& prior,
                                      const std::vector<WindowBatch>& batches);
 
-/// Measures the distribution of real windows' energy, given what is known of the windows. All body
-/// parts' energy must be given.
+/// Measures the distribution of real windows' energy, given what is known of the windows.
+/// `requests` give all body parts' energy.
 EnergyPrior MeasureEnergy(const FlowModelParts& model, const std::vector<WindowRequest>& requests);
 
 /// Measures how the energy of body parts rises and falls in real dances. Unknown if no clip is
@@ -25,13 +25,13 @@ EnergyPrior MeasureEnergy(const FlowModelParts& model, const std::vector<WindowR
 EnergyCurve MeasureCurve(std::span<const ClipTrack> tracks,
                          const std::array<double, kBodyParts>& medians);
 
-/// Measures how energetic sampled windows are if they request real windows' energy. `requests` give
-/// all body parts' energy. `model` has no response yet. Unknown for too few windows.
+/// Measures the energy of sampled windows that request real windows' energy. `requests` give all
+/// body parts' energy. `model` has no response yet. Unknown for too few windows.
 EnergyResponse MeasureResponse(const FlowModelParts& model, const FlowNetwork& network,
                                const std::vector<WindowRequest>& requests);
 
-/// Measures which way round real dancers turn to a key, given what is known of the windows. Their
-/// `turn_to_key` is the real one.
+/// Measures in which direction real dancers turn to a key, given what is known of the windows.
+/// `requests` have the real `turn_to_key`.
 TurnPrior MeasureTurns(const Skeleton& skeleton, const std::vector<WindowRequest>& requests);
 
 /// Statistics of real windows: the correlation of white coordinates over dimensions, as a Cholesky

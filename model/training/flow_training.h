@@ -7,10 +7,10 @@
 namespace choreo {
 
 /// The settings of training `default` that are not options of the command line (TrainOptions).
-/// Numbers in brackets are decisions (docs/decisions.md) that need a value; no measurement compared
-/// the values themselves.
+/// Numbers in brackets are the decisions (docs/decisions.md) behind a setting; its value was not
+/// compared with others.
 struct FlowTraining {
-  /// Lengths of windows, frames. They are few, so that data per length is made once [64].
+  /// Lengths of windows, frames: few, because each needs data of its own [64].
   std::array<int, 17> lengths = {5, 8, 10, 15, 20, 25, 30, 36, 42, 48, 54, 60, 66, 72, 80, 90, 96};
   double average = 0.999;  ///< the share of the weights' moving average kept per step
 
@@ -18,8 +18,8 @@ struct FlowTraining {
   double no_key = 0.3;                ///< share without a key [93, 157] ...
   int no_key_frames = 30;             ///< ... with windows at least this long
   double far_key = 0.12;              ///< share with a key beyond the window (kSightFrames) ...
-  int far_frames = 72;                ///< ... which has so many frames ...
-  int far_step = 24, far_places = 5;  ///< ... and the key is this much nearer, so many times
+  int far_frames = 72;                ///< ... which has this many frames ...
+  int far_step = 24, far_places = 5;  ///< ... and a key 0 to 4 steps before kSightFrames
   double no_labels = 0.35;            ///< share without beats, path and style, for guidance [87]
 
   /// Shares of windows. `energy`: given, as in the server, which samples it first [66, 78].
@@ -38,7 +38,7 @@ struct FlowTraining {
                                    .astray = 0.2};
 
   // Sizes of measurements: windows per batch, and batches for the prior and the energy [66, 78],
-  // for turns [112], few of which are large, and for the response [131].
+  // for turns (few are large) [112], and for the response [131].
   int measured_windows = 48;
   int prior_batches = 12, turn_batches = 120, response_batches = 4;
   std::array<int, 3> energy_frames = {20, 60, 90};

@@ -8,11 +8,11 @@
 namespace choreo {
 
 /// Finds and repairs jolts of recordings. A limb hangs from a joint with three or more children
-/// (pelvis, chest); the joints between those are the trunk. Speeds are relative to the root, so
-/// that running is no jolt.
+/// (pelvis, chest); the joints between such joints are the trunk. Speeds are relative to the root,
+/// so that running is no jolt.
 
-/// The frames at which to cut a motion, ascending. In the step to each, the whole body snaps (the
-/// trunk, or two limbs at once), or a limb does, too near to an end to be bridged.
+/// The frames at which to cut a motion, ascending. In the step to such a frame the whole body snaps
+/// (the trunk, or two limbs at once), or a limb snaps too near to an end to be bridged.
 std::vector<int> FindBreaks(const Skeleton& skeleton, const Motion& motion);
 
 struct LimbRepair {

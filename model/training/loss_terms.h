@@ -8,7 +8,7 @@
 /// metres would vanish beside nats.
 namespace choreo {
 
-/// Losses of lengths are in decimetres, which makes those of papers F and C nearly 1.
+/// Losses of lengths are in decimetres: papers F's and C's losses are then near 1.
 inline constexpr double kDecimetresPerMetre = 10;
 
 /// One term of a loss.

@@ -31,8 +31,8 @@ struct PrepareOptions {
   int jobs = 2;
 };
 
-/// Prepares every clip, showing progress; prints one line per clip and the means, and writes
-/// OUT/report.json, for "aist" and "lafan1" also OUT/splits.json. Names and skips unreadable clips.
+/// Prepares every clip, showing progress. Prints one line per clip and the means. Writes
+/// OUT/report.json and, for "aist" and "lafan1", OUT/splits.json. Names and skips unreadable clips.
 /// Returns the number of prepared clips. Throws Error if the input has nothing in this layout, or
 /// if the layout has no native skeleton but one is requested.
 int Prepare(const PrepareOptions& options);

@@ -16,10 +16,10 @@ struct FloorPlane {
   double slope_z = 0;
 };
 
-/// Fits the floor under a dancer to the lowest of the given joints in each frame: a robust plane
-/// with 95 % of them above it, together with a drift of its height in time. (tang2018's floors
-/// drift by up to 25 cm, which could look like a tilt.) Slopes are zero in directions in which the
-/// dancer covers less than a metre, and never exceed 0.15.
+/// Fits the floor under a dancer to each frame's lowest foot joint: a robust plane with 95 % of
+/// these above it, and the drift of its height in time (up to 25 cm in tang2018, which could look
+/// like a tilt). Slopes never exceed 0.15, and are zero along directions in which the dancer covers
+/// less than a metre.
 FloorPlane FitFloorPlane(const PositionClip& clip, const std::vector<int>& foot_joints);
 
 /// Rotates the clip about the origin to make the plane horizontal, and moves the plane to y = 0.

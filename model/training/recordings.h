@@ -75,9 +75,8 @@ Recording ReadTang61(const std::filesystem::path& path, const PrepareOptions& op
 /// and, anywhere below, the songs of the AIST Dance Database, whose name is a NAME's last part but
 /// one: gBR_sBM_cAll_d04_mBR0_ch01 dances to mBR0.wav (.mp3, .ogg, .flac), from its beginning.
 std::vector<RecordingSource> ListAistRecordings(const PrepareOptions& options);
-/// The groups of the lists. A motion in none of them is in "unused" and never used, because it
-/// shares a song or dance with the tests. Throws Error for a missing list and for a name in two
-/// lists.
+/// The groups of the lists. A motion in no list shares a song or dance with the tests: it is in
+/// "unused", and never used. Throws Error for a missing list and for a name in two lists.
 nlohmann::ordered_json AistSplits(const PrepareOptions& options);
 
 /// Lists LAFAN1 (Harvey et al. 2020) as distributed: one folder of THEMETAKE_subjectN.bvh, such as

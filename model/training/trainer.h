@@ -10,7 +10,7 @@
 
 namespace choreo {
 
-/// Frames between keys at which models are compared: those of paper F, Table 2, and 10.
+/// Frames between keys at which models are compared: paper F's (Table 2), and 10.
 inline constexpr std::array kComparedFrames{10, 30, 60, 90};
 /// The same for paper C's network (paper C, Tables 2-4).
 inline constexpr std::array kControlledFrames{10, 50, 100, 150};
@@ -28,7 +28,7 @@ struct TrainOptions {
   /// For continuous flows: keeps the statistics of `from`'s data, and measures only missing ones.
   bool keep_statistics = false;
   /// The share of the trained weights in a continuous flow's checkpoint; the rest is `from`'s
-  /// (Wortsman et al. 2022). Also applies to a finished run, whose checkpoint is rewritten.
+  /// (Wortsman et al. 2022). A finished run rewrites its checkpoint with it.
   double blend = 1;
   bool resume = false;         ///< continue from the run's state if there is one
   int64_t report_every = 250;  ///< steps between validation, curves and saved state

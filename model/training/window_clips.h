@@ -25,7 +25,7 @@ class WindowClips {
     double partial_key = 0;  ///< joints or the root position are left open
     double beats = 0, energy = 0, path = 0, style = 0;  ///< the label is given
     double stage = 0;                                   ///< the stage is given
-    double hold_history = 0;  ///< only the last few poses are known; the earliest of them is held
+    double hold_history = 0;  ///< earlier poses are unknown: they repeat the first of the last few
     double other_style = 0;   ///< begins in another style, if the style label is given
     double even_styles =
         0;  ///< first draws a style, all equally likely; otherwise any place in the clips

@@ -18,8 +18,8 @@ struct BarPattern {
   using Bands = std::array<double, Onset::kBands>;
 
   int beats = 4;
-  /// Positions within a beat, as shares of it, starting with the beat itself. Those from `places`
-  /// on are unused.
+  /// Positions within a beat, as shares of it, starting with the beat itself. Only the first
+  /// `places` are used.
   std::array<double, kPlaces> place{0, 0.5, 0.25, 0.75};
   size_t places = 4;
   double slowest_bpm = 48, fastest_bpm = 208;
@@ -40,7 +40,7 @@ class EvenOnsets {
 
   std::array<float, Onset::kBands> Even(const Onset& onset);
 
-  /// Starts as if this music had played before; otherwise its beginning would have too much weight.
+  /// Starts as if `onsets` had played before. Without it the first onsets weigh too much.
   void Settle(std::span<const Onset> onsets) {
     for (int round = 0; round < kRounds; ++round) {
       for (const Onset& onset : onsets.first(std::min(onsets.size(), kSettled))) Even(onset);
@@ -77,7 +77,7 @@ class BarPointer {
 
   /// EvenOnsets::Settle. Call it before the first Add.
   void Settle(std::span<const Onset> onsets) { even_.Settle(onsets); }
-  /// Makes room for so many frames in all, which saves time.
+  /// Reserves memory for this many frames in all, which saves time.
   void Reserve(size_t frames) { back_.reserve(frames * from_.size()); }
   void Add(const Onset& onset);
 
@@ -97,8 +97,8 @@ class BarPointer {
   struct Tempo {
     size_t first_score;
     int period, zero;
-    // Where the frames that count as each place begin, from the beat's first frame on; kNowhere:
-    // too close to an earlier place.
+    // For each place, its first frame, counted from the beat's first; kNowhere: too close to an
+    // earlier place.
     std::array<int8_t, kPlaces> begin;
   };
   // A pattern's tempi, from the fastest on.
@@ -127,7 +127,8 @@ class BarPointer {
   std::array<std::vector<double>, Onset::kBands> constant_, slope_;
   std::vector<Tempo> tempi_;
   std::vector<Part> parts_;
-  // The score of each place in the last kHistory frames, and its sum with the next three.
+  // For each of the last kHistory frames: each place's score, and the sum over this frame and the
+  // next three.
   std::vector<float> place_scores_, beginning_;
   std::vector<float> scores_;  // of all rings
   std::vector<float> best_;    // [tempo][kBeats]: of the paths to this frame

@@ -20,18 +20,18 @@ struct BeatHint {
 inline constexpr double kSlowestHint = 50, kFastestHint = 200;
 inline constexpr int kDefaultBar = 4;  ///< beats in a bar if unknown
 
-/// The range of tempi near the hint's.
+/// The tempi to search for this hint.
 TempoLimits LimitsOf(const BeatHint& hint);
 
-/// Removes or adds every second beat according to the hint. Half time keeps the beats with the one
-/// nearest to frame `kept` or, without it, with the first downbeat of each part between pauses.
-/// Bars keep their number of beats. A gap longer than 1.6 times the gaps around it is a pause and
-/// gets no beat.
+/// Removes or adds every second beat according to the hint. Half time keeps every second beat,
+/// counted from the beat nearest to frame `kept` or, without it, from the first downbeat of each
+/// part between pauses. Bars keep their number of beats. A gap longer than 1.6 times the gaps
+/// around it is a pause and gets no beat.
 void Follow(const BeatHint& hint, BeatTrack* track, std::optional<int64_t> kept = {});
 
-/// Sets the counts of all beats from that of one beat, which is `count`, from 0 on. Beyond a pause,
-/// counts move by as much as before it, because only music shows how many beats a pause lasts;
-/// beats without a count are counted by time.
+/// Recounts all beats so that `beat` has count `count` (0: the first). Beyond a pause, known counts
+/// shift by as much as before it, because only music shows how many beats a pause lasts. Beats
+/// without a count are counted by time.
 void CountFrom(int64_t beat, int64_t count, BeatTrack* track);
 
 /// Sets the counts of beats whose count is below 0 by counting on, in each part between pauses,

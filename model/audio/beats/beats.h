@@ -12,7 +12,7 @@ namespace choreo {
 /// The largest distance, in the model's frames, at which a dancer's beat hits the music's.
 inline constexpr double kBeatGap = 2;
 
-/// The time, seconds, within which later music can still move a beat.
+/// Seconds of later music that can still move a beat.
 inline constexpr int kTempoWindowSeconds = 8;
 
 /// The beats of a song, as a dancer would count them.
@@ -21,8 +21,8 @@ struct BeatTrack {
   int beats_in_bar = 0;           ///< in most bars: 4, 3, or 2 of three eighths each
   std::vector<int64_t> frames{};  ///< ascending, in steps of kOnsetHop samples at 22 050 Hz
   std::vector<int> in_bar{};      ///< [beats] each beat's count in its bar; 0: a downbeat
-  /// [beats] How much stronger onsets are on the beats around it than elsewhere, 0 to 1. This is
-  /// not the probability that they are right: the same holds for half, or twice, as many beats.
+  /// [beats] How much stronger onsets are on the beats around it than elsewhere, 0 to 1. Not the
+  /// probability that they are right: half or twice as many beats have it, too.
   std::vector<double> confidence{};
 
   std::vector<double> Seconds() const;
@@ -34,8 +34,8 @@ struct TempoLimits {
   double slowest_bpm = 48, fastest_bpm = 208;
 };
 
-/// Whether onsets cover a whole song or only its last seconds, which follow other music and have
-/// too few beats to compare their halves.
+/// Whether onsets cover a whole song, or only its last seconds: too few beats to compare their
+/// halves.
 enum class MusicExtent { kWhole, kPart };
 
 /// Finds a song's beats with the bar pointer model (BarPointer): the tempo, beats and bars that

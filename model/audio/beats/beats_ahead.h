@@ -24,13 +24,13 @@ struct HeardBeats {
 /// which the result's frames refer. Pure.
 HeardBeats HearBeats(std::span<const Onset> onsets, int64_t first);
 
-/// Future beats, seconds, ascending, and those of them that begin a bar.
+/// Future beats, and the ones among them that begin a bar; seconds, ascending.
 struct BeatsAhead {
   std::vector<double> beats = {}, downbeats = {};
   std::optional<double> confidence =
       {};  ///< of the beats that predict them, 0 to 1; none: they are known
 
-  /// Keeps only those in [from, to].
+  /// Keeps only beats in [from, to].
   void Keep(double from, double to);
 };
 

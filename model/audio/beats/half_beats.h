@@ -30,12 +30,12 @@ class HalfBeats {
   /// the weaker one is at least `share` of the stronger one's.
   bool AreAlike(double share) const;
 
-  /// The same in 4/4, but for one of the four halves of two beats, on which a bass drum may sound:
-  /// each half is a beat, and that one is the first of its bar.
+  /// AreAlike in 4/4, except that a bass drum may sound on one of the four halves of two beats.
+  /// Each half is then a beat, and that one begins the bar.
   bool AreAlikeButForAccent(double share) const;
 
-  /// Whether the bass drum sounds halfway between nearly all beats and hardly on them, so that
-  /// those are off-beats.
+  /// Whether the beats are off-beats: the bass drum sounds halfway between nearly all of them, and
+  /// hardly on them.
   bool BassIsBetween() const;
 
   /// The half of nearly all beats, 0 or 1, on which a snare sounds while a bass drum sounds on the
@@ -61,7 +61,7 @@ class HalfBeats {
 };
 
 /// The path with each beat half a beat earlier, and one more after the last, within `frames`. Bars
-/// keep their position, because patterns expect a backbeat's snare just after their first beat.
+/// keep their position: patterns expect a backbeat's snare just after a bar's first beat.
 std::vector<BarPointer::Step> HalfABeatEarly(const std::vector<BarPointer::Step>& path,
                                              int64_t frames);
 

@@ -13,8 +13,8 @@ namespace choreo {
 /// 0 to 1.
 inline double Excess(double on, double even) { return on > even ? 1 - even / on : 0; }
 
-/// Sums the strengths of onsets (OnsetStrength) over frames and around beats; those outside the
-/// music count as 0. Immutable.
+/// Sums the strengths of onsets (OnsetStrength) over frames and around beats. Outside the music
+/// they are 0. Immutable.
 class OnsetSums {
  public:
   static constexpr int64_t kBeatFrames = 4;  // of a beat: from one before it to two after it

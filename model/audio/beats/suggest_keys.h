@@ -14,8 +14,7 @@ namespace choreo {
 
 /// The shortest time between key poses, seconds: about the duration of a change of pose.
 inline constexpr double kMinKeyInterval = 1.2;
-/// The earliest time of suggested keys, seconds, because the dancer can't reach a pose earlier at
-/// ease.
+/// The earliest time of suggested keys, seconds. A dancer can't reach a pose earlier at ease.
 inline constexpr double kFirstKey = 1;
 
 /// What begins at a beat; each value includes those before it. An eight is two bars of four or of

@@ -12,10 +12,9 @@
 namespace choreo {
 
 /// Converts arriving music to rows of mel bands and sound, 30 per second: push samples of any
-/// format, then read rows. Row r is centred at r / 30 seconds of the absolute audio clock and
-/// equals that of MelSpectrogram(). Audio before 0 and after the end is silence. A row's bits
-/// depend only on the samples near it, not on chunk sizes or where the stream starts. Not
-/// thread-safe.
+/// format, then read rows. Row r is centred at r / 30 seconds of the absolute audio clock, and
+/// equals MelSpectrogram()'s row. Audio before 0 and after the end is silence. A row's bits depend
+/// only on the samples near it, not on chunk sizes or where the stream starts. Not thread-safe.
 class FeatureStream {
  public:
   /// `first_sample`: absolute index, at `sample_rate`, of the first sample to be pushed, for a
@@ -40,8 +39,9 @@ class FeatureStream {
   /// The mel bands of a row, valid until forgotten. Throws Error(kOutOfRange) for a row that is not
   /// final or before first_row().
   const MelBandsDb& Bands(int64_t row) const;
-  /// The sound of a row, for the same rows. Without onset and power beyond the audio. In a stream
-  /// that starts later, the onsets of the first kRowSoundMemory rows differ from the whole song's.
+  /// The sound of a row that Bands has. Beyond the audio it has neither onset nor power. In a
+  /// stream that starts later, the onsets of the first kRowSoundMemory rows differ from the whole
+  /// song's.
   const RowSound& Sound(int64_t row) const;
   /// Frees the rows before `row`: first_row() moves to it, or to the first row that is not final.
   void Forget(int64_t row);
@@ -49,8 +49,7 @@ class FeatureStream {
   /// Absolute index of the sample that Push expects next.
   int64_t next_sample() const { return first_sample_ + pushed_; }
   bool finished() const { return finished_; }
-  /// The number of samples at 22 050 Hz after a row's centre that make the row final, at this input
-  /// rate.
+  /// The number of samples at 22 050 Hz after a row's centre that the row needs at this input rate.
   int latency_samples() const;
 
   /// The latest `first_sample` of a stream whose first_row() is at most `row`: where to resume

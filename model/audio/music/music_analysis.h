@@ -11,7 +11,7 @@ namespace choreo {
 /// The analysis of a complete piece of music.
 struct MusicAnalysis {
   std::vector<double> beats = {};       ///< seconds, ascending
-  std::vector<double> downbeats = {};   ///< those of the beats that begin a bar
+  std::vector<double> downbeats = {};   ///< the beats that begin a bar
   std::vector<double> confidence = {};  ///< [beats] as in BeatTrack; empty for known beats
   std::vector<Passage> passages = {};   ///< repeats
   std::vector<float> energies = {};     ///< SongEnergies (music_dynamics.h)

@@ -9,8 +9,8 @@
 namespace choreo {
 
 /// Options of the music's energy, which makes a dance livelier or calmer. Energies (logarithms of
-/// speeds, as far as the model follows them) are added to the EnergyLevel of body parts without a
-/// control.
+/// speed factors, as far as the model follows them) are added to the EnergyLevel of body parts
+/// without a control.
 struct MusicDynamicsOptions {
   /// Weights of loudness, onset density and bass.
   double loud = 0.4, busy = 0.4, deep = 0.2;
@@ -28,12 +28,12 @@ struct MusicDynamicsOptions {
   double silence = -65, far_below = 40, fade = 10;
 
   /// Music turns where it is louder or softer by `turn_loud` LU than in the second before a
-  /// transition, or has `turn_deep` dB more or less bass. Otherwise it varies less within two
-  /// seconds, in 95 of 100 cases. Bass counts as at least `bass_below` dB below the loudness,
+  /// transition, or has `turn_deep` dB more or less bass. Music without a turn varies less within
+  /// two seconds, in 95 of 100 cases. Bass counts as at least `bass_below` dB below the loudness,
   /// because less is inaudible.
   double turn_loud = 5, turn_deep = 10, bass_below = 20;
-  /// The number of newest rows, which show louder music while most of the last second is from
-  /// before the turn.
+  /// The newest rows that count after a turn to louder music, because most of the last second is
+  /// from before it.
   int turn_heard = 6;
   /// In rows: the step at which turns are examined; the least length of a transition, so that it
   /// looks like a movement; and the time before a key without turns, which feet need to get there.
@@ -50,8 +50,9 @@ double HearEnergy(std::span<const RowSound> rows, const MusicDynamicsOptions& op
 
 /// Rows in a step of a song's energies.
 inline constexpr int kEnergyRows = 15;
-/// The energy of each kEnergyRows rows of a whole song, relative to all of it: that of the
-/// kTypicalFrames rows around their middle. `rows`: one per frame, from the song's start. Pure.
+/// The energy of a whole song in steps of kEnergyRows rows, relative to all of it. A step has the
+/// energy of the kTypicalFrames rows around its middle. `rows`: one per frame, from the song's
+/// start. Pure.
 std::vector<float> SongEnergies(std::span<const RowSound> rows,
                                 const MusicDynamicsOptions& options = {});
 /// The mean of SongEnergies over rows [from, to), with silence after the last. Rows before the song

@@ -24,11 +24,11 @@ struct PassageOptions {
   double soonest = 12;
 };
 
-/// Detects, while music arrives, whether it repeats. Compares the harmony (chroma) and timbre
-/// (loudness by band) of each moment with those of all earlier ones, and follows the likeliest path
-/// through the lags between them (Viterbi's algorithm over the lags of a self-similarity matrix;
-/// Müller, "Fundamentals of Music Processing", chapter 4). A moment depends only on samples before
-/// its end. Not thread-safe.
+/// Detects, while music arrives, whether it repeats. Compares each moment's harmony (chroma) and
+/// timbre (loudness by band) with all earlier moments', and follows the likeliest path through the
+/// lags between them (Viterbi's algorithm over the lags of a self-similarity matrix; Müller,
+/// "Fundamentals of Music Processing", chapter 4). A moment depends only on samples before its end.
+/// Not thread-safe.
 class PassageListener {
  public:
   /// Samples at 22 050 Hz between moments, 0.2 s.
@@ -70,11 +70,11 @@ class PassageListener {
   Moment sum_ = Moment::Zero(), squares_ = Moment::Zero();
   std::vector<bool> sounds_;
 
-  // Score of the best path that ends with each lag, and with none.
+  // By lag, and for none: the score of the best path that ends there.
   std::vector<double> worth_;
   double worth_of_none_ = 0;
-  // For each moment and lag, whether the best path began there; and the lag from which the best
-  // path to "none" comes (-1: from none).
+  // By moment and lag: whether the best path began there. By moment: the lag from which the best
+  // path to "none" came (-1: from none).
   std::vector<std::vector<bool>> begins_;
   std::vector<int64_t> ended_;
   std::vector<int64_t> best_;  // by moment, the lag where the best path ends, or -1

@@ -33,7 +33,8 @@ void CheckAudioFormat(double sample_rate, int channels, const std::string& name 
 /// Throws Error(kInvalidArgument, FIELD[i]) unless beats, in seconds, ascend strictly within the
 /// longest music; Error(kInvalidArgument, FIELD) for more than kMaxBeats.
 void CheckBeats(std::span<const double> beats, const std::string& field);
-/// The same, and unless each downbeat is one of `beats`, which are checked already.
+/// CheckBeats for downbeats, each of which must also be one of `beats`. `beats` must have passed
+/// CheckBeats.
 void CheckDownbeats(std::span<const double> downbeats, std::span<const double> beats,
                     const std::string& field);
 

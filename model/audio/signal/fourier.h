@@ -20,8 +20,8 @@ class FourierPower {
   std::span<const double> Of(std::span<const double> samples);
 
  private:
-  /// A stage that joins four transforms of `length` to each longer one, and its twiddle factors:
-  /// of the second, third and fourth, each the real parts, then the imaginary ones.
+  /// A stage that joins four transforms of `length` into one. Its twiddle factors are the second,
+  /// third and fourth transform's: each the real parts, then the imaginary ones.
   struct Stage {
     size_t length;
     std::vector<double> twiddles;

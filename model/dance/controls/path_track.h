@@ -18,8 +18,8 @@ struct LeadRequest;
 /// A path is a PathCurve, bent smoothly to the dancer at a transition's start and to the key at its
 /// end (LeadPath). If both cannot be met, the key has precedence, and a warning states the
 /// distance. The path comes to rest at keys with a hit, and waits while a pose is held (IsHold).
-/// Where no path sets the height, the root is guided to the key's height: the stated one, or the
-/// height at which the pose stands on the floor. A path with heights overrides the latter.
+/// Where no path sets the height, the root is guided to the key's height: its own, or the height at
+/// which its pose stands on the floor. A path with heights overrides only a standing height.
 /// Transitions without a path are left to the model.
 class PathTrack {
  public:

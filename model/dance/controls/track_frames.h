@@ -22,9 +22,9 @@ struct ChangedFrames {
   int64_t last = std::numeric_limits<int64_t>::max();
 };
 
-/// A frame's place among a control's rows, which ascend: the row at or before it, and the share of
-/// the way to the next row, 0 to 1. Before the first and after the last row, the nearest one
-/// applies. Without frames there is one row for all.
+/// A frame's place among a control's ascending rows: the row at or before it, and the share of the
+/// way to the next row, 0 to 1. Outside the rows the nearest one applies. Without frames, one row
+/// is for all.
 struct RowPlace {
   size_t row = 0;
   float share = 0;

@@ -6,8 +6,8 @@
 /// is one sum over the depth from first to last, so a row's bits depend neither on its place nor on
 /// how many rows are multiplied with it.
 ///
-/// All float32; but with PackedKernels::pair, elements of `a` and `b` are pairs of bfloat16,
-/// adjacent in depth, and the depth is halved. Sums are float32.
+/// All numbers are float32, except with PackedKernels::pair: elements of `a` and `b` are then pairs
+/// of bfloat16, adjacent in depth, and the depth is halved. Sums stay float32.
 namespace choreo {
 
 /// c [rows, panels * panel] = init + a b. `b` is in panels of PackedKernels::panel columns, padded
@@ -48,7 +48,7 @@ struct PackedKernels {
   /// out [repeats, width] = clamp((x - mean) * scale, -bound, bound), mean and scale [width]
   void (*standardise)(const float* x, const float* mean, const float* scale, long width,
                       long repeats, float bound, float* out);
-  /// out = (x, bent softly towards bound + 1 beyond the bound) * scale + mean
+  /// out = (x, softly limited to bound + 1 beyond `bound`) * scale + mean
   void (*bend)(const float* x, const float* mean, const float* scale, long width, float bound,
                float* out);
   /// Softmax of a row of logits, in place.
@@ -61,8 +61,8 @@ struct PackedKernels {
 
 /// The float32 kernels that this machine can run, fastest first; never empty.
 std::span<const PackedKernels* const> PackedKernelsHere();
-/// The kernels with bfloat16 products that this machine can run, with the panel of the fastest
-/// float32 ones. Empty if the machine has no instructions for them.
+/// The kernels with bfloat16 products that this machine can run. Their panel is the fastest float32
+/// kernels'. Empty if the machine has no instructions for them.
 std::span<const PackedKernels* const> Bf16KernelsHere();
 
 }  // namespace choreo

@@ -112,7 +112,7 @@ class PackedTensors {
   const Safetensors& content_;
 };
 
-/// Whether a row's products have the same bits in every position of batches of several sizes. Tests
+/// Whether a row's products have the same bits at every place in batches of several sizes. Tests
 /// random rows, in about a millisecond.
 bool RowsAreIndependent(const PackedKernels& kernels);
 

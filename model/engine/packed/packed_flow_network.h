@@ -16,8 +16,8 @@ namespace choreo {
 class PackedFlowNetwork : public FlowNetwork {
  public:
   /// Throws Error(kInvalidArgument) naming a tensor that is missing or does not fit the
-  /// configuration. `products`: for the transformer's blocks; `kernels` or less exact ones with the
-  /// same panel. Layers between poses and tokens use `kernels`.
+  /// configuration. `products`: for the transformer's blocks; `kernels`, or less exact kernels with
+  /// the same panel. Layers between poses and tokens use `kernels`.
   PackedFlowNetwork(const Safetensors& content, const ContinuousFlowConfig& config,
                     const Skeleton& skeleton, const PackedKernels& kernels,
                     const PackedKernels& products);

@@ -44,8 +44,8 @@ torch::Tensor HeadingOf(const torch::Tensor& angle);  ///< [...] -> [..., 2]
 torch::Tensor RelativePositions(const FrameTensors& frames);
 /// Differences of RelativePositions from frame to frame, [batch, T - 1, joints, 3].
 torch::Tensor Steps(const FrameTensors& frames);
-/// Velocity factors [..., 5] (paper C, Eq. 1) of those differences [..., joints, 3], given `shares`
-/// [5, joints].
+/// Velocity factors [..., 5] (paper C, Eq. 1) of Steps' differences [..., joints, 3], given
+/// `shares` [5, joints].
 torch::Tensor FactorsOf(const torch::Tensor& steps, const torch::Tensor& shares);
 torch::Tensor SharesOf(const Skeleton& skeleton);  ///< WeighBodyParts, [5, joints]
 

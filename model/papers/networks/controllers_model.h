@@ -71,8 +71,8 @@ class ControllersModelImpl : public torch::nn::Module {
                         const torch::Tensor& factor_std);
 
   ControlledGiven Prepare(const ControlledTransition& transition);
-  /// Computes n frames. `walked`: the lead() frames before the first of them, then all of them but
-  /// the last, either real or as computed.
+  /// Computes n frames. `walked`: the lead() frames before the first one, then the first n - 1
+  /// frames, real or computed.
   ControlledOutput Walk(const ControlledGiven& given, const FrameTensors& walked,
                         ControllersState* state);
   /// Computes all frames, each from the ones before it.

@@ -77,8 +77,8 @@ class CouplingFlowImpl : public torch::nn::Module {
   /// x → z, adding to `log_det` [batch, time]; `state` starts as zeros and is replaced.
   torch::Tensor Forward(const torch::Tensor& x, const torch::Tensor& condition, FlowState* state,
                         torch::Tensor* log_det);
-  /// z → x. `inverse_weights` are those of InverseWeights(), to be computed once per roll-out, not
-  /// once per frame.
+  /// z → x. `inverse_weights`: from InverseWeights(), computed once per roll-out, not once per
+  /// frame.
   torch::Tensor Inverse(const torch::Tensor& z, const torch::Tensor& condition,
                         const std::vector<torch::Tensor>& inverse_weights, FlowState* state,
                         torch::Tensor* log_det);

@@ -11,8 +11,7 @@ namespace choreo {
 /// Bias and floor of a coupling's delta, which starts near 1. Near 0 the inverse would explode and
 /// the likelihood be unbounded; paper F (Eq. 7) does not state how to avoid that.
 inline constexpr double kDeltaBias = 2.0, kDeltaFloor = 0.05;
-/// Past frames and music are clamped to this many standard deviations, beyond which there was no
-/// training data.
+/// Past frames and music are clamped to this many standard deviations: training data ended there.
 inline constexpr double kFeatureClamp = 6.0;
 /// Sampled frames beyond this many standard deviations are softly limited to one more. So feedback
 /// cannot diverge, and roll-outs that exceed the bound keep a gradient.
@@ -32,9 +31,9 @@ struct FlowConfig {
   int condition_width = 0;  ///< 0: every coupling gets the raw condition (the paper); otherwise
                             ///< width of one shared encoding of it
   /// False (the paper): the flow samples a frame's features. True: it samples the residual of a
-  /// linear prediction of each feature from its own past, and has, in the same units, the
-  /// acceleration that would reach the key (AccelerationTo) as an input. Small networks are slow to
-  /// learn inertia and how to reach a pose. Requires a shared encoding.
+  /// linear prediction of each feature from its own past. An input, in the same units, is the
+  /// acceleration that would reach the key (AccelerationTo). Small networks are slow to learn
+  /// inertia and how to reach a pose. Requires a shared encoding.
   bool innovations = false;
   int max_transition_frames = kMaxTransitionFrames;
   double temperature = 1.0;  ///< default when served
@@ -49,7 +48,7 @@ struct FlowConfig {
   double history_noise =
       0.0;  ///< standard deviation added to past frames in training, in standardised units
 
-  /// The number of music features on which a frame depends: those of past rows and of its own.
+  /// The number of music features on which a frame depends: past rows' and its own row's.
   int HeardWidth() const { return (history_frames + 1) * audio_features; }
 
   /// The shape of a preset. `paper`: as published, 99 M weights. `paper-f`: a twentieth of that,

@@ -50,7 +50,7 @@ class FlowModelImpl : public torch::nn::Module {
   torch::Tensor LogLikelihood(const torch::Tensor& features, const torch::Tensor& audio,
                               const torch::Tensor& has_audio,
                               const torch::Tensor& static_condition);
-  /// Initialises ActNorm on one batch. Arguments are those of LogLikelihood.
+  /// Initialises ActNorm on one batch. Arguments as for LogLikelihood.
   void InitialiseActNorm(const torch::Tensor& features, const torch::Tensor& audio,
                          const torch::Tensor& has_audio, const torch::Tensor& static_condition);
 

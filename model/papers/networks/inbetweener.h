@@ -23,8 +23,8 @@ namespace choreo {
 /// In training, noise hides the key while it is far away (Section 3.4). It is deterministic and has
 /// no music input. Unlike theirs, it has no adversarial losses, and it is a quarter as wide.
 ///
-/// Features and key conditions are those of paper F (PoseCodec, key_condition.h). It outputs poses
-/// and contacts; velocities are zeros, which nothing reads. Not thread-safe.
+/// Features and key conditions are paper F's (PoseCodec, key_condition.h). It outputs poses and
+/// contacts, and zeros for velocities, which nothing reads. Not thread-safe.
 class InbetweenerImpl : public torch::nn::Module {
  public:
   InbetweenerImpl(const FlowConfig& config, const Skeleton& skeleton);
@@ -52,7 +52,7 @@ class InbetweenerImpl : public torch::nn::Module {
 
   FlowConfig config_;
   Skeleton skeleton_;
-  int width_, pose_;  ///< numbers of a frame's features and of the pose's among them
+  int width_, pose_;  ///< the numbers of a frame's features, and of pose features among them
   torch::Tensor mean_, std_;
   torch::nn::Sequential state_encoder_{nullptr}, offset_encoder_{nullptr}, target_encoder_{nullptr},
       decoder_{nullptr};

@@ -17,9 +17,9 @@ void UpdateCell(const float* gates, const float* before, float* cell, size_t row
 /// Computes h = o tanh(c). `squashed` is tanh(c).
 void EmitHidden(const float* gates, const float* squashed, float* out, size_t rows, size_t hidden);
 
-/// Backpropagates one step. `hidden_gradient` is the gradient of h. `cell_gradient` is that of c
-/// from later steps, and is replaced by that of c'. Writes `gate_gradients`, the gradients of the
-/// gates before DoubleCellGate.
+/// Backpropagates one step. `hidden_gradient`: of h. `cell_gradient`: of c, from later steps;
+/// replaced by the gradient of c'. Writes `gate_gradients`, the gradients of the gates before
+/// DoubleCellGate.
 void BackThroughCell(const float* gates, const float* before, const float* squashed,
                      const float* hidden_gradient, float* cell_gradient, float* gate_gradients,
                      size_t rows, size_t hidden);

@@ -9,8 +9,8 @@
 namespace choreo {
 
 /// The root trajectory controller or velocity factor controller of paper C (Section 3.2, Figure 3).
-/// Its inputs are a window of controls around a frame, and the same window with its past replaced
-/// by computed frames.
+/// Its inputs are the controls in a window around a frame, and the same window with computed frames
+/// in place of past controls.
 class WindowControllerImpl : public torch::nn::Module {
  public:
   virtual ~WindowControllerImpl() = default;

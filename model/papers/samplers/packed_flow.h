@@ -19,7 +19,7 @@ namespace choreo {
 ///
 /// The input of every coupling's network is [condition of the frame | z_lo | own hidden state], a
 /// row of `input_width` floats. The part of a raw condition that is known when the transition
-/// begins has no columns in it: `hoisted` maps it to the initial value of the first product.
+/// begins is not in this row: `hoisted` maps it to the initial value of the first product.
 struct PackedFlow {
   /// The inverse of one step of the flow.
   struct Coupling {
@@ -75,8 +75,8 @@ struct PackedFlow {
 
 /// Runs the flow on the calling CPU thread. A step allocates nothing.
 ///
-/// Computes terms that do not depend on earlier frames ahead, in one product over kAhead frames:
-/// when a transition starts, and again after each kAhead frames. So long transitions start fast and
+/// Computes the terms that do not depend on earlier frames in one product over the next kAhead
+/// frames, at a transition's start and after each kAhead frames. So long transitions start fast and
 /// need little memory.
 class PackedStepper : public FlowStepper {
  public:

@@ -28,8 +28,8 @@ class TorchStepper : public FlowStepper {
   void Step(FlowFrame* frame) override;
 
  private:
-  /// Two rows, of which the second is padding (zeros). LibTorch computes the last elements of a
-  /// tensor one by one and the others as vectors, which may round differently.
+  /// Two rows; the second is padding (zeros). LibTorch computes a tensor's last elements one by one
+  /// and the others as vectors, which may round differently.
   static constexpr int64_t kRows = 2;
 
   /// Columns of the input.

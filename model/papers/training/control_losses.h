@@ -12,7 +12,7 @@ LossTerms ControlLoss(ControllersModelImpl& model, const ControlBatch& batch,
                       const ControlledOutput& output);
 
 /// The keyframe consistency loss (Eq. 10) as intended, [batch], m^2: distances of the first 5
-/// frames from the history's last pose and of the last 5 from the target. With at most 10 frames,
+/// frames from the history's last pose and of the last 5 from the target. With at most 10 frames:
 /// distances of each frame from both poses, weighted by nearness. `positions` are [batch, N,
 /// features], the two poses [batch, features].
 torch::Tensor KeyframeLoss(const torch::Tensor& positions, const torch::Tensor& first,

@@ -10,8 +10,8 @@
 /// Training losses of paper F's flow and the baseline.
 namespace choreo {
 
-/// Adds noise of `share` times the features' spread, so that binary contacts, derived velocities
-/// and joints that never move cannot make the density unbounded.
+/// Adds noise of `share` times the features' spread. Without it, binary contacts, derived
+/// velocities and joints that never move would make the density unbounded.
 torch::Tensor Dequantise(FlowModel& model, const torch::Tensor& features, double share);
 
 /// L_flows of one batch (Eq. 6), nats per frame, mean over frames, for features dequantised by

@@ -28,7 +28,7 @@ struct MotionVariation {
   double drop_audio = 0;   ///< probability that its music is masked
   double partial_key = 0;  ///< probability that the key leaves joints or the root's position open
   double tempo = 0;        ///< probability that it is played up to a third faster or slower
-  /// Probability that only the last few poses are known; the earliest of them is held.
+  /// Probability that only the last few poses are known; earlier ones repeat the first of these.
   double hold_history = 0;
 };
 /// Draws `batch` windows of N = `frames` frames after `history` frames from clips of one skeleton.

@@ -99,8 +99,8 @@ void VisitFixedOfPapers(auto& options, auto&& visit) {
         "Ablation of controllers");
 }
 
-/// Trains paper F's flow (`paper`, `paper-f`, `ablation`). Output and errors are those of
-/// TrainContinuousFlow, also below.
+/// Trains paper F's flow (`paper`, `paper-f`, `ablation`). Output and errors are
+/// TrainContinuousFlow's, also below.
 void TrainFlow(const PaperOptions& options);
 /// Trains the baseline of both papers, with TrainFlow's windows, on the CPU.
 void TrainInbetweener(const PaperOptions& options);
