@@ -207,7 +207,7 @@ void PrintSummary(const std::vector<Scores>& all,
   }
 }
 
-/// Prints the accuracy of predictions relative to that of whole songs.
+/// Prints the accuracy of predictions relative to the accuracy in whole songs.
 void PrintLiveShare(const std::map<int, std::vector<Scores>>& by_tempo) {
   std::printf("\nsteady songs: mean F in files, as PCM and with `choreo live`, and their shares\n");
   for (const auto& [bpm, songs] : by_tempo) {

@@ -36,7 +36,7 @@ namespace {
 /// What a run measures, besides Google Benchmark's flags.
 struct Options {
   std::filesystem::path probes;  ///< folder for checkpoints and probes; empty: none
-  /// The packed engine's float32 kernels, as those of an older CPU. Only they and bare products
+  /// The packed engine's float32 kernels, as an older CPU has them. Only they and bare products
   /// with the same instructions run then. Empty: all that this machine has.
   std::string kernels;
 };

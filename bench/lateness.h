@@ -8,10 +8,10 @@
 /// Dances like a live player: sends a song in real time, in chunks as from a sound card, and
 /// measures the arrival of each frame.
 ///
-/// A frame is due once the chunk with the last sample that it needs has been sent: that of its own
-/// time plus the header's `latency_frames`. Its lateness is the time from then to its arrival. It
-/// is missed if it arrives too late for a player that follows the music by latency_frames, one
-/// chunk and 50 ms.
+/// A frame is due once the chunk with the last sample that it needs has been sent: the sample at
+/// its own time plus the header's `latency_frames`. Its lateness is the time from then to its
+/// arrival. It is missed if it arrives too late for a player that follows the music by
+/// latency_frames, one chunk and 50 ms.
 namespace choreo::bench {
 
 struct LiveRequest {

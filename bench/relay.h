@@ -6,7 +6,7 @@
 
 namespace choreo::bench {
 
-/// Gives clients another address of this machine: connections to `address` reach the server from
+/// Gives clients another address on this machine: connections to `address` reach the server from
 /// 127.0.0.`number`. Uses two threads per connection.
 class Relay {
  public:

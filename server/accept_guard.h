@@ -9,9 +9,9 @@
 
 namespace choreo {
 
-/// Decides which new connections are passed to gRPC. Refuses an address that has flooded the server
-/// (FrameGuard, ResetGuard), has reset more calls than can be ended, or connects too fast.
-/// Handshakes cost CPU time that dances need, and each connection has its own limit on frames. Not
+/// Decides which new connections are passed to gRPC. Refuses an address that flooded the server
+/// (FrameGuard, ResetGuard), has reset more calls than can be ended, or connects too fast:
+/// handshakes cost CPU time that dances need, and limits on frames are per connection. Not
 /// thread-safe.
 class AcceptGuard {
  public:
@@ -25,14 +25,14 @@ class AcceptGuard {
   /// Whether the address connects slowly enough.
   bool TakesFrom(const std::string& address, Clock::time_point now);
 
-  /// The allowed burst of connections from one address, for clients that reconnect after a server's
-  /// restart, and the sustained rate after it.
+  /// Connections allowed from one address: at once, for clients that reconnect after a server's
+  /// restart, and per second after that.
   static constexpr int kAtOnce = 512, kPerSecond = 64;
 
  private:
   const ResetGuard& resets_;
   Tally& tally_;
-  /// By address: when it will have regained its full burst. Holds future times only.
+  /// By address: the future time at which its full burst is allowed again.
   std::map<std::string, Clock::time_point> paid_back_;
   Clock::time_point next_sweep_, next_report_;
 };

@@ -30,7 +30,7 @@ class ModelFolder {
   std::vector<Server::Samplers> Load();
 
   /// Rereads the folder: loads new and changed files, and updates the server. Logs an unusable file
-  /// as an error and retries it next time. Until then its previous model is still served, unless
+  /// as an error and retries it next time. Until then it serves the file's previous model, unless
   /// another file has a model of that name. Changes nothing if the folder is empty or unreadable.
   /// Once `stopped` returns true, loads nothing more and does not update the server.
   void Reload(Server& server, const std::function<bool()>& stopped);
@@ -57,12 +57,12 @@ class ModelFolder {
   static bool Has(const Files& files, const std::string& model);
   /// Loads a file and records it in `files`. Throws if `files` has a model of that name.
   Server::Samplers LoadFile(const std::filesystem::path& file, Files* files) const;
-  /// Records a file in `files`, or its problem in `faults`. Returns its engines unless they are
+  /// Records a file in `files`, or its fault in `faults`. Returns its engines unless they are
   /// already served.
   std::optional<Server::Samplers> Inspect(const std::filesystem::path& file, Files* files,
                                           Faults* faults) const;
-  /// Adds the previous models of faulty files to `files`. Call after all other files are recorded,
-  /// because those have precedence.
+  /// Adds the previous models of faulty files to `files`. Call after all other files are recorded:
+  /// they have precedence.
   void KeepServing(const Faults& faults, Files* files) const;
 
   const std::filesystem::path folder_;

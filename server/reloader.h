@@ -15,12 +15,12 @@ namespace choreo {
 /// Reads the settings again; throws Error for a bad one.
 using SettingsReader = std::function<ServerConfig()>;
 
-/// Rereads the settings and the folder of models on request. Uses its own thread, because loading
-/// takes seconds, during which signals must be handled. Requests during a reread cause one more.
+/// Rereads the settings and the folder of models on request. Uses its own thread, because signals
+/// must be handled during the seconds that loading takes. Requests during a reread cause one more.
 class Reloader {
  public:
   /// `folder`: null without one. `config`: what the server was started with. `status`: what the
-  /// service manager shows after good settings, instead of the fault of bad ones.
+  /// service manager shows while the settings are good; if they are bad, it shows their fault.
   Reloader(ServerConfig config, SettingsReader read, ModelFolder* folder, Server& server,
            std::string status);
 

@@ -15,9 +15,9 @@ void HoldSignals();
 
 /// Loads the models, reports the address, and serves. At SIGHUP it rereads the settings, by
 /// `reread`, and a folder of models. Returns after SIGTERM or SIGINT and draining. Exits at once,
-/// with code 0, on a stop signal before it serves, on a second stop signal, or on one during the
-/// loading of a model when all calls have ended. With `check` it prints "ok" instead of serving.
-/// Throws what ModelFolder, `load` and Server throw.
+/// with code 0, on a stop signal before it serves, on a second one, and on one during a model's
+/// loading once all calls have ended. With `check` it prints "ok" instead of serving. Throws what
+/// ModelFolder, `load` and Server throw.
 void Serve(const ServerConfig& config, const ModelFolder::Loader& load,
            const SettingsReader& reread);
 

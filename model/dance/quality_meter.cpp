@@ -86,7 +86,7 @@ QualityReport QualityMeter::Report(std::span<const double> music_beats) const {
   }
   if (support_) report.support = support_->Share();
   for (KeyReached& key : report.keys) {
-    // acceleration_[i] is that of frame i + 1.
+    // acceleration_[i] belongs to frame i + 1.
     const int64_t middle = key.frame - first_frame_ - 1;
     const int64_t last = static_cast<int64_t>(acceleration_.size()) - 1;
     for (int64_t i = std::max<int64_t>(0, middle - kFramesAroundKey);

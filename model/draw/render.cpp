@@ -94,8 +94,8 @@ class Renderer {
     return rows_[row][column / kLanes].part[column % kLanes];
   }
 
-  // Whether a pixel shows a single part: all its samples lie between its last one and those of its
-  // neighbours to the left and above.
+  // Whether a pixel shows a single part: all its samples lie between its last sample and the last
+  // ones of its left and upper neighbours.
   bool ShowsOnePart(int x, int y) const {
     const float part = PartAt(x, y);
     return part == PartAt(x - 1, y) && part == PartAt(x, y - 1) && part == PartAt(x - 1, y - 1);

@@ -67,7 +67,7 @@ Eigen::AlignedBox2f Camera::Bounds(const Eigen::Vector3f& centre, float radius) 
   const Eigen::Array2f corner = Eigen::Array2f::Zero();
   if (depth + radius < kNear) return {corner, corner};
   if (depth - radius < kNear) return {corner, size_};
-  // The bounds of the ball are those of the cube around it.
+  // The ball gets the bounds of the cube around it.
   const auto low = [&](float side) { return side / (depth + (side < 0 ? -radius : radius)); };
   const auto high = [&](float side) { return side / (depth + (side > 0 ? -radius : radius)); };
   const float x = right_.dot(from), y = -up_.dot(from);

@@ -36,7 +36,7 @@ Eigen::MatrixXf Normals(const FlowModelParts& model, const FlowNoise& noise, int
   return normals;
 }
 
-// The uses of a frame's random numbers after those of Normals.
+// What a frame's random numbers after Normals' are for.
 enum Decision { kFreeTurn, kWayToKey, kDecisions };
 
 double NumberFor(Decision decision, const FlowModelParts& model, const FlowNoise& noise) {

@@ -34,8 +34,8 @@ const Eigen::Matrix3d kYUpFromZUp{{1, 0, 0}, {0, 0, 1}, {0, -1, 0}};
 
 /// One layout of SMPL's arrays.
 struct Layout {
-  const char* root;  ///< axis-angle of the pelvis; null where it is among those of `body`
-  const char* body;  ///< all joints, or those without the pelvis
+  const char* root;  ///< axis-angle of the pelvis; null if `body` has it
+  const char* body;  ///< all joints, or all but the pelvis
   const char* trans;
 };
 
@@ -112,7 +112,7 @@ double ReadRate(const NpzArchive& npz, double otherwise, bool known, const Motio
   return otherwise;
 }
 
-// Whether the arrays, or those of a dict nested at most `depth` deep, are a motion.
+// Whether the arrays, or a nested dict's at most `depth` deep, are a motion.
 bool HoldsMotion(const NpzArchive& npz, int depth) {
   return FindLayout(npz) ||
          (depth > 0 && std::ranges::any_of(npz.NestedNames(), [&](const std::string& name) {

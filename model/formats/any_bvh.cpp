@@ -46,7 +46,7 @@ Motion FitBvh(const BvhFile& file, const MotionReading& reading) {
 }
 
 // Converts angles that look like radians to degrees. In radians some angles exceed 1, and none
-// exceeds a whole turn, except those of a root that keeps turning slowly.
+// exceeds a whole turn unless a root keeps turning slowly.
 std::optional<BvhFile> FromRadians(const BvhFile& file, const MotionReading& reading) {
   constexpr Eigen::Index kMinFrames = 10;  // fewer frames prove nothing
   constexpr double kTurn = 2 * M_PI + 1e-3, kLimb = 1;

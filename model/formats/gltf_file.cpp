@@ -81,7 +81,7 @@ double One(int type) {
   }
 }
 
-/// Elements in a buffer view: an accessor's, or those of its sparse part.
+/// Elements in a buffer view: an accessor's, or its sparse part's.
 struct Elements {
   int view;
   uint64_t offset;

@@ -52,7 +52,7 @@ struct Scale {
   }
 };
 
-// The windows whose clip is in the fold, or those of all other clips.
+// The windows of clips in the fold, or of all other clips.
 Eigen::MatrixXd Gather(const CriticWindows& windows, size_t fold, bool of_fold) {
   std::vector<Eigen::VectorXd> chosen;
   for (size_t i = 0; i < windows.clips.size(); ++i) {

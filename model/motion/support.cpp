@@ -47,7 +47,7 @@ Eigen::Vector2d NearestOnSegment(const Eigen::Vector2d& p, const Eigen::Vector2d
   return a + (square > 0 ? std::clamp((p - a).dot(ab) / square, 0.0, 1.0) : 0) * ab;
 }
 
-// The floor's height in the rest pose: that of the lower toes.
+// The floor's height in the rest pose: the lower toes'.
 double RestFloor(const Skeleton& skeleton) {
   const Eigen::Matrix3Xd rest = JointPositions(skeleton, RestPose(skeleton));
   return std::min(rest(1, skeleton.feet[1]), rest(1, skeleton.feet[3]));

@@ -125,9 +125,9 @@ class PlanStander {
     return Settled(std::min(since, until));
   }
 
-  // Limits ankles: none is lower than in a flat foot, and that of a supporting foot is at most as
-  // high as on half toes. The foot turns about its toes for that. What the previous pose and a key
-  // do beyond these limits fades out, or in, within kSettleSeconds; a held pose keeps it.
+  // Limits ankles: none is lower than in a flat foot, and a supporting foot's is at most as high as
+  // on half toes. The foot turns about its toes for that. What the previous pose and a key do
+  // beyond these limits fades out, or in, within kSettleSeconds; a held pose keeps it.
   void LayDown(size_t side) {
     const Leg& leg = feet_.legs[side];
     const auto sunk = [&](const Eigen::Matrix3Xd& at) {

@@ -37,8 +37,8 @@ Groups ReadGroups(const std::filesystem::path& splits_file) {
   return groups;
 }
 
-// Finds a clip's group. If two sets share clip names, a folder's clips are those of the set with
-// its name.
+// Finds a clip's group. If two sets share clip names, a folder's clips belong to the set with the
+// folder's name.
 std::string GroupOf(const Groups& groups, const std::filesystem::path& folder,
                     const std::string& clip, const std::filesystem::path& splits_file) {
   std::optional<std::string> found;

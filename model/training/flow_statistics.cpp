@@ -151,7 +151,7 @@ EnergyCurve MeasureCurve(std::span<const ClipTrack> tracks,
     }
   }
   // Measures each clip relative to its own mean, because dancers differ. Logarithms of stillness
-  // are unbounded, so the range of levels is that of the livelier frames.
+  // are unbounded, so the livelier frames determine the range of levels.
   Square all = Square::Zero();
   EnergyPrior::Levels above = EnergyPrior::Levels::Zero(), lively = above;
   Eigen::Index frames = 0;

@@ -29,8 +29,8 @@ Eigen::MatrixXd TurnsOf(std::span<const Pose> poses) {
   return turns;
 }
 
-// How real motion's joints move with the flow's coordinates, rotation vectors `x` applied after
-// those of the mean. See WindowBatch's axes and bones.
+// How real motion's joints move with the flow's coordinates: rotation vectors `x`, applied after
+// the mean's. See WindowBatch's axes and bones.
 struct Lever {
   Eigen::MatrixXd axes, bones;
 

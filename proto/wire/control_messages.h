@@ -25,8 +25,8 @@ v1::Controls ToProto(const ControlRequest& controls);
 /// unknown body parts. The engine validates the values.
 ControlRequest FromProto(const v1::Controls& controls, const std::string& field);
 
-/// Writes a control's fields (VisitFields), or a manner's settings (VisitSettings), into their
-/// message's fields of the same names. `field`: the control's path in errors.
+/// A visitor for VisitFields or VisitSettings: writes each value into the message's field of that
+/// name. `field`: the control's path in errors.
 class FieldWriter {
  public:
   FieldWriter(google::protobuf::Message* out, std::string field)
@@ -44,7 +44,7 @@ class FieldWriter {
   std::string field_;
 };
 
-/// Reads the same from their message.
+/// A visitor that reads what FieldWriter writes.
 class FieldReader {
  public:
   /// The message must outlive this object.
@@ -56,7 +56,7 @@ class FieldReader {
   void operator()(const char* name, std::vector<Eigen::Vector2d>& points) const;
   void operator()(const char* name, std::vector<std::string>& parts) const;
   void operator()(const char* name, std::string& text) const;
-  /// None if it is not sent, or not a field of this message.
+  /// None if the field was not sent, or the message has no such field.
   void operator()(const char* name, std::optional<double>& number) const;
 
  private:

@@ -25,8 +25,8 @@ namespace choreo::wire {
 v1::Skeleton ToProto(const Skeleton& skeleton);
 v1::MusicPassage ToProto(const Passage& passage);
 v1::HandPose ToProto(HandPose hands);
-/// Sets the message's fields of the same names. A manner may be part of any message that has those
-/// of its settings that it states.
+/// Sets the message's fields named after the manner's settings. The message must have a field for
+/// each setting that the manner states.
 void Write(const DanceManner& manner, google::protobuf::Message* out);
 void Write(const KnownMusic& music, v1::DanceConfig* out);
 v1::ModelInfo ToProto(const ModelDescription& model);
@@ -49,7 +49,7 @@ ModelDescription FromProto(const v1::ModelInfo& model);
 DanceHeader FromProto(const v1::Header& header);
 QualityReport FromProto(const v1::QualityReport& report);
 CallTiming FromProto(const v1::Timing& timing);
-/// None for a kind of event that this version does not know.
+/// None if this version does not know the kind of event.
 std::optional<DanceEvent> FromProto(const v1::Event& event);
 
 /// The error for a server that breaks the protocol.

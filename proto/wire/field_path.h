@@ -7,8 +7,8 @@
 
 namespace choreo::wire {
 
-// The model does not know the API: its errors name values as a C++ caller does. Clients need the
-// path in the message that they sent. The server translates wherever it calls the model.
+// The model does not know the API: its errors name values as C++ callers do. Clients need the path
+// in their message, so the server translates wherever it calls the model.
 
 /// The path, in the API's messages, of what an error of the model names:
 /// - a member of DanceConfig, GroupRequest or Key: "output_fps" -> "config.frame_rate"

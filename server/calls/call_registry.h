@@ -21,8 +21,8 @@ namespace choreo {
 /// The progress of a call.
 struct CallProgress {
   bool unread = false;  ///< an answer waits for its client to take it
-  /// The time of that answer or, without one, of the last message in either direction; now while
-  /// the workers sample.
+  /// When that answer was queued or, without one, when the last message in either direction came;
+  /// now while workers sample.
   std::chrono::steady_clock::time_point since;
 };
 
@@ -49,7 +49,7 @@ class Call {
 /// Limits on clients' calls and idle time.
 struct CallLimits {
   int calls = 0;
-  /// The most calls of one caller, including those without a first message: while another caller is
+  /// The most calls of one caller, including calls without a first message: while another caller is
   /// connected, and while none is.
   int calls_of_peer = 0, calls_of_lone_peer = 0;
   std::chrono::milliseconds first_message{};
@@ -86,7 +86,7 @@ class CallRegistry {
   /// Gives up each admitted call (Call::GiveUp).
   void GiveUpAll();
 
-  /// Admits no more calls, and ends those not yet admitted.
+  /// Admits no more calls, and ends calls not yet admitted.
   void StopAdmitting();
   /// From now on, streams end with ResumeElsewhere after their next continuation.
   void EndAtTransitions() { ends_at_transitions_ = true; }
@@ -94,23 +94,23 @@ class CallRegistry {
   void AbortAll(const Error& error);
   bool WaitUntilEmpty(std::chrono::milliseconds limit) const;
 
-  /// Whether a caller other than `party` has a call, or had one within the last minute. The minute
-  /// keeps a place for a refused caller's retry.
+  /// Whether a caller other than `party` has a call, or had one within the last minute, which keeps
+  /// a place for a refused caller's retry.
   bool HasRival(const std::string& party) const;
 
   bool admitting() const;  ///< until StopAdmitting
   int count() const;       ///< admitted
-  /// The calls of one caller, including those without a first message.
+  /// The calls of one caller, including calls without a first message.
   int CountOf(const std::string& party) const;
   CallLimits limits() const;
-  /// Limits calls from now on; those in progress stay, even if they are more.
+  /// Limits calls from now on; calls in progress stay, even if they are more.
   void SetLimits(const CallLimits& limits);
   const TimeSource& time() const { return time_; }
-  /// The share in use of the limit on all calls or of that on the busiest caller, whichever is
+  /// The share in use of the limit on all calls, or of the busiest caller's limit, whichever is
   /// larger.
   double utilisation() const;
-  /// Seconds, 1 to 60, after which a refused call should retry: the expected time until as many
-  /// calls have ended as were refused before it. Randomised, so that retries do not coincide.
+  /// Seconds, 1 to 60, after which a refused call should retry: about when as many calls will have
+  /// ended as were refused before it. Randomised, so that retries do not coincide.
   double RetryAfter();
   /// RetryAfter for a client that has other servers to try.
   double RetryElsewhere();
@@ -148,7 +148,7 @@ class CallRegistry {
   std::array<Visit, 2> visits_;  // the latest caller, and the latest other one
   double mean_seconds_ = 0;      // mean duration of recently ended calls
   int64_t ended_ = 0;
-  int refused_ = 0;  // refused calls that no ended call has made room for
+  int refused_ = 0;  // refused calls for which no ended call has yet made room
   std::minstd_rand random_{std::random_device{}()};
 };
 

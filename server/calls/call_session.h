@@ -93,8 +93,8 @@ class CallSession : public Call {
   }
 
   /// Call when the reactor is done. Frees the dance, which holds this session, and counts the call.
-  /// `lost`: the status was never sent. gRPC reports a dead connection as a half-close first, so
-  /// the dance may have finished normally with nobody connected.
+  /// `lost`: the status was never sent. gRPC first reports a dead connection as a half-close, so
+  /// the dance may have finished for nobody.
   void Release(bool lost) noexcept try {
     if (const auto dance = TakeEnd()) dance->Cancel();
     serving_.frames.GiveBack(this);
@@ -211,8 +211,7 @@ class CallSession : public Call {
   }
   bool IsNamedResumed() const { return !caller_.resumed_from.empty(); }
 
-  /// CountFrames and TimingOf may only be called from the sink's functions, which run one at a
-  /// time.
+  /// Only the sink's functions, which run one at a time, may call CountFrames and TimingOf.
   void CountFrames(size_t frames) {
     if (frames_ == 0) first_frame_s_ = Elapsed();
     frames_ += static_cast<int64_t>(frames);
@@ -261,8 +260,8 @@ class CallSession : public Call {
     if (current) current->SetPaused(paused);
   }
 
-  /// How long a token must be missing from the file: a file being rewritten lacks some for a
-  /// moment.
+  /// How long a token must be missing from the file, which lacks tokens for a moment while it is
+  /// rewritten.
   static constexpr std::chrono::seconds kRevoking{2};
 
   Outbox<Response> outbox_;

@@ -18,13 +18,13 @@ struct FrameShares {
   double of_peer = 0.85, of_lone_peer = 0.85;
 };
 
-/// Reserves the machine's time for calls as they arrive. Each call is charged for its frames at
-/// their current mean cost until GiveBack: the engines' cost (SampleQueue::LoadOf) and, for a
-/// dance, the cost of serving it. A rare transition is sampled kMaxTakes times (plan/takes.h), so
-/// beside these means one dance of the costliest kind has time for that. The machine serves as many
-/// calls as it can, and refuses the rest before they begin. Models share the devices, so their
-/// times add up. A charged model outlives its calls. `party`: the caller to whom a call is counted
-/// (Caller::Party). Thread-safe.
+/// Reserves the machine's time for calls as they arrive. Until GiveBack, each call is charged for
+/// its frames at their current mean cost: the engines' (SampleQueue::LoadOf) and, for a dance, the
+/// cost of serving. Beside these means, one dance of the costliest kind has time for kMaxTakes
+/// takes, which a rare transition needs (plan/takes.h). The machine serves as many calls as it can,
+/// and refuses the rest before they begin. Models share the devices, so their times add up. A
+/// charged model outlives its calls. `party`: the caller to whom a call is counted (Caller::Party).
+/// Thread-safe.
 class FrameBudget {
  public:
   /// `has_rival`: whether a caller other than this party is connected. While one is, a caller must
@@ -35,7 +35,7 @@ class FrameBudget {
                        const ServingCost* serving = nullptr)
       : has_rival_(std::move(has_rival)), serving_(serving), shares_(shares) {}
 
-  /// Charges a dance, at playing speed however fast its music arrives. Throws Refused if it exceeds
+  /// Charges a dance at playing speed, however fast its music arrives. Throws Refused if it exceeds
   /// the time left. A lone caller's first call is always accepted, so that slow engines can serve
   /// one at a time. Call once per call. `call`: any address that identifies the call.
   void TakeDance(const void* call, const SampleQueue& model, const std::string& party);
@@ -68,15 +68,14 @@ class FrameBudget {
   void Take(const void* call, Charge charge);
   double LoadOf(const Charge& charge) const;
 
-  // The load of all calls or, with `party`, of one caller's, plus that of one more. Requires
-  // mutex_.
+  // The load of all calls or, with `party`, of one caller's calls, plus `more`. Requires mutex_.
   double LoadOf(const std::string* party, const Charge* more = nullptr) const;
 
-  // The most that all calls, with one more, may reserve. Requires mutex_.
+  // The most that all calls, including `more`, may reserve. Requires mutex_.
   double MostOfAll(const FrameShares& shares, const Charge* more = nullptr) const;
 
-  // These do not require mutex_. MostOf: the most that this caller may reserve when its next call
-  // costs `cost`.
+  // The functions below do not require mutex_. MostOf: the most that this caller may reserve if its
+  // next call costs `cost`.
   double MostOf(const FrameShares& shares, const std::string& party, double cost) const;
   FrameShares shares() const;
 
@@ -85,7 +84,7 @@ class FrameBudget {
   mutable std::mutex mutex_;
   FrameShares shares_;                     // lock: mutex_
   std::map<const void*, Charge> charges_;  // by call. Lock: mutex_
-  bool only_danced_ = true;                // except transitions still in progress. Lock: mutex_
+  bool only_danced_ = true;                // since the last OnlyDanced. Lock: mutex_
 };
 
 }  // namespace choreo

@@ -11,12 +11,12 @@
 
 namespace choreo {
 
-/// A server's models: the served ones, of which the first is the default, and withdrawn ones that
-/// calls still use. Thread-safe.
+/// A server's models: the served ones, the default first, and withdrawn ones that calls still use.
+/// Thread-safe.
 class Models {
  public:
-  /// A model in use, kept alive by its holders. Only Models ends queues, never their last holder,
-  /// which may run on one of the queue's own threads.
+  /// A model in use, kept alive by its holders. Only Models ends a queue; its last holder may run
+  /// on the queue's own thread.
   using Use = std::shared_ptr<SampleQueue>;
 
   /// Current and total figures of all models with one name.

@@ -24,7 +24,7 @@ namespace choreo {
 /// starts nothing after Finish. Workers keep this object alive, not the reactor.
 ///
 /// Back-pressure bounds the queue. The dance pauses when the queue exceeds `max_bytes`, and resumes
-/// when it falls to half of that. Waiting frames are joined into larger messages. While the queue
+/// when it falls to half as much. Waiting frames are joined into larger messages. While the queue
 /// exceeds kMaxWaiting times `max_bytes`, the client's messages are not read. Thread-safe.
 template <class Response>
 class Outbox {
@@ -33,7 +33,7 @@ class Outbox {
   /// any answer.
   static constexpr size_t kMaxWaiting = 4;
 
-  /// The reactor's operations. Called with the lock held; must not call the outbox.
+  /// The reactor's operations. The outbox calls them with its lock held; they must not call it.
   class Wire {
    public:
     virtual ~Wire() = default;

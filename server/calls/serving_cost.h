@@ -6,8 +6,8 @@
 
 namespace choreo {
 
-/// The CPU time per dance frame outside sampling: music, messages and gRPC. Starts with the cost of
-/// music alone, measured once; then follows this process's use for recent frames. Thread-safe.
+/// The CPU time per dance frame outside sampling: music, messages and gRPC. Starts at the cost of
+/// music alone, measured once, then follows what this process uses for recent frames. Thread-safe.
 class ServingCost {
  public:
   /// The process's totals since its start.

@@ -20,7 +20,7 @@ struct Caller {
   /// kResumedFromHeader. Sent back to the client.
   std::string resumed_from = {};
 
-  /// The name under which calls are counted together: the token's holder or, without one, the
+  /// Calls with the same Party are counted together: the token's holder or, without one, the
   /// address.
   std::string Party() const;
 };

@@ -13,10 +13,9 @@ namespace choreo {
 /// - The headers of a call, a HEADERS frame and its CONTINUATIONs (RFC 9113, 6.10), are too long.
 ///   gRPC refuses calls with more than 8 KiB of headers, but only once it has received them all.
 /// - Frames with little content come too fast. gRPC works on each of them, and no limit on calls
-///   and no flow-control window bounds them. A DATA frame with less than half of kFullFrame counts
-///   as half a frame. A call counts as kFramesOfCall: a client that does not acknowledge the
-///   server's settings has no limit on calls, and each call takes 18 KB until a thread has handled
-///   it.
+///   and no flow-control window bounds them. A DATA frame counts by the share of kFullFrame that
+///   it lacks. A call counts as kFramesOfCall: a client that does not acknowledge the server's
+///   settings has no limit on calls, and each call takes 18 KB until a thread has handled it.
 class FrameMeter {
  public:
   using Clock = std::chrono::steady_clock;
@@ -31,8 +30,8 @@ class FrameMeter {
   /// second, need some hundreds.
   static constexpr int kMostEmptyFrames = 10'000;
   static constexpr int kFramesOfCall = 2;
-  /// The least bytes of a DATA frame with content. A key and 2 ms of music have more, because a
-  /// client may send a whole song at once.
+  /// The bytes from which a DATA frame counts as full. A key, or 2 ms of music, has more: a client
+  /// may send a whole song at once.
   static constexpr size_t kFullFrame = 64;
 
  private:
@@ -47,7 +46,7 @@ class FrameMeter {
   size_t headers_ = 0;
   bool flooded_ = false;
   Clock::time_point second_ends_;
-  size_t lacking_ = 0;  // missing bytes of content in this second
+  size_t lacking_ = 0;  // bytes by which this second's frames fall short of full ones
 };
 
 }  // namespace choreo

@@ -33,8 +33,8 @@ void CountClientLeft();
 /// The number of failed handshakes in this process, by reason. Thread-safe.
 HandshakeFaults CountedHandshakeFaults();
 
-/// Logs the likely peers of failed handshakes, which gRPC does not name: connections that ended at
-/// about that time without a call. Thread-safe.
+/// Logs the likely peers of failed handshakes, whom gRPC does not name: connections that ended
+/// without a call at about that time. Thread-safe.
 class HandshakeWatch {
  public:
   /// Records a new connection.

@@ -11,7 +11,7 @@ namespace choreo {
 class HeldOff {
  public:
   using Clock = std::chrono::steady_clock;
-  /// How long an address is held off: much longer than a flood lasts before it is ended.
+  /// How long an address is held off: much longer than it takes to end a flood.
   static constexpr std::chrono::seconds kTime{10};
 
   void Add(const std::string& address, Clock::time_point now = Clock::now()) {

@@ -13,10 +13,11 @@
 
 namespace choreo {
 
-/// Counts unfinished calls per connection. When a client resets a call, gRPC no longer counts it,
-/// but its memory is in use until it is cleaned up, so endless resets would exhaust memory. Closes
-/// a connection with more than `most` such calls, counts it as a flood, and holds its address off.
-/// Refuses new connections from that address until these calls are cleaned up. Thread-safe.
+/// Counts unfinished calls per connection. gRPC no longer counts a call that its client reset,
+/// though its memory is in use until it is cleaned up, so endless resets would exhaust memory.
+/// Closes a connection with more than `most` such calls, counts it as a flood, and holds its
+/// address off. Refuses new connections from that address until these calls are cleaned up.
+/// Thread-safe.
 class ResetGuard {
  public:
   /// `most`: unfinished calls per connection. `on_call`: gets the peer of each new call.

@@ -6,9 +6,10 @@
 
 namespace choreo {
 
-/// An error about one of several messages of a kind. what() is for people: it counts the accepted
-/// messages of that kind and omits the message around a pose, as in "keyframes[3].rotations[16]".
-/// path() is for programs: it is the path inside the message, "keyframe.pose.rotations[16]".
+/// An error about one of several messages of a kind. what(), for people, numbers the message among
+/// the accepted ones of its kind, and omits the message around a pose:
+/// "keyframes[3].rotations[16]". path(), for programs, is the path inside the message:
+/// "keyframe.pose.rotations[16]".
 class MessageError : public Error {
  public:
   /// `error`: the original error, whose field is the path inside the message. `number`: the
@@ -22,8 +23,8 @@ class MessageError : public Error {
   std::string path_, key_id_;
 };
 
-/// The path of an error's field in the message as sent. The message names coordinates, and stores a
-/// continuation's poses as arrays of numbers, whose indices count vectors, not numbers.
+/// The path of an error's field in the message as sent: with names of coordinates, and for a
+/// continuation's poses, which are arrays of numbers, with the vector's index.
 std::string PathInMessage(const Error& error);
 
 }  // namespace choreo

@@ -63,7 +63,7 @@ struct DecodedMusic {
   /// Decodes a file. Throws what DecodeMono and `between` throw.
   static DecodedMusic Of(std::span<const std::byte> file, const std::function<void()>& between);
   double seconds() const;
-  /// Analyses the music. `beats`: those that the client gave; if empty, finds them.
+  /// Analyses the music. `beats`: the client's; if empty, finds them.
   MusicAnalysis Analyse(const std::vector<double>& beats) const;
 };
 

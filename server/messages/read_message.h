@@ -13,7 +13,7 @@ inline constexpr int64_t kMaxMessageBytes = 16 << 20;
 /// The most bytes of one message on the wire, excluding its music.
 inline constexpr int64_t kMaxOtherBytes = 4 << 20;
 /// The most fields of one message on the wire, including nested ones. An array of numbers counts as
-/// one, a passage as four; kMaxPassages passages fit.
+/// one field, a passage as four; kMaxPassages passages fit.
 inline constexpr int kMaxFields = 32'768;
 
 inline constexpr int kMaxHistoryPoses = 1'000;

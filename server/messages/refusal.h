@@ -27,7 +27,7 @@ inline constexpr std::array kRefusals = {
     "max_file_music", "unread_infos",        "token",    "draining",
 };
 
-/// Why a new connection is closed before gRPC gets it: what its address did.
+/// What an address did, so that its new connection is closed before gRPC gets it.
 enum class ConnectionRefusal {
   kFlood,   ///< sent a flood, less than ten seconds ago
   kResets,  ///< reset more calls than can be ended

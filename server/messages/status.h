@@ -9,9 +9,9 @@
 namespace choreo {
 
 /// Maps an error to a gRPC status; the only place that does so. The status carries google.rpc
-/// details. ErrorInfo, always: the error's field and its key's id (MessageError). BadRequest, if
-/// there is a field: its path in the sent message and a description that does not repeat the path.
-/// RetryInfo, if a retry helps: `retry_after` seconds.
+/// details: always ErrorInfo with the error's field and its key's id (MessageError); with a field,
+/// BadRequest with its path in the sent message and a description without the path; if a retry
+/// helps, RetryInfo with `retry_after` seconds.
 grpc::Status ToStatus(const Error& error, double retry_after = 1);
 
 /// A fault in a message: the field's path, and a description that does not repeat the path. Both

@@ -4,8 +4,8 @@
 
 namespace choreo {
 
-/// Returns freed memory to the system. The C library keeps free memory between blocks in use, which
-/// after a flood of calls is more than a GiB. Not thread-safe.
+/// Returns freed memory to the system. The C library keeps free memory that lies between blocks in
+/// use: after a flood of calls, more than a GiB. Not thread-safe.
 class FreeMemory {
  public:
   /// Call regularly. Returns memory only if at least kMuch is free, because allocations of other

@@ -4,8 +4,8 @@
 
 #include <cstdint>
 
-/// Resources that a process on this machine uses. Each function throws Error(kNotFound) if it has
-/// ended.
+/// The resources that a process on this machine uses. Each function throws Error(kNotFound) if the
+/// process has ended.
 namespace choreo {
 
 double CpuSeconds(pid_t process);

@@ -10,7 +10,7 @@
 namespace choreo {
 
 /// A few threads for work too long for gRPC's threads, such as decoding files or analysing minutes
-/// of music. A call has at most one task here at a time, which bounds the queue. Thread-safe.
+/// of music. A call has at most one task here at a time, so the queue is bounded. Thread-safe.
 class TaskPool {
  public:
   explicit TaskPool(int threads);

@@ -11,17 +11,16 @@
 namespace choreo {
 
 /// The certificate, key and client CA that a server uses: the last valid versions of the files in
-/// its settings. gRPC reloads files without checking them, so it reads copies of these. Not
-/// thread-safe.
+/// its settings. gRPC reads copies, because it reloads files without checks. Not thread-safe.
 class CertificateFiles {
  public:
   /// Throws Error(kInvalidArgument) naming the setting of an unusable file.
   explicit CertificateFiles(const ServerConfig& config);
 
   /// Rereads the files; call regularly. Returns whether a change was usable, or none without a
-  /// change. Reports a fault only after seeing it twice, because files that are replaced one by one
-  /// do not match for a moment. Logs changes and faults once. An expired certificate does not
-  /// replace another.
+  /// change. Reports a fault once it has seen it twice: files that are replaced one by one do not
+  /// match for a moment. Logs changes and faults once. An expired certificate does not replace
+  /// another.
   std::optional<bool> Refresh();
 
   /// The certificate chain and the key, in one file so that they always match.
@@ -31,8 +30,8 @@ class CertificateFiles {
     return needs_client_ca_ ? client_ca_.path() : std::filesystem::path();
   }
   int64_t expires() const { return expires_; }  ///< the certificate's end; seconds since 1970
-  /// From when on no client can be admitted, in seconds since 1970; 0 if clients need no
-  /// certificate.
+  /// When the last client CA expires: from then on no client is admitted. Seconds since 1970; 0 if
+  /// clients need no certificate.
   int64_t client_ca_expires() const { return used_.client_ca_expires; }
   /// Throws Error(kInvalidArgument) for an expired file.
   void RequireUnexpired() const;

@@ -13,8 +13,8 @@
 namespace choreo {
 
 inline constexpr double kMostStreams = 65'536;
-/// Live dances that one core can serve beside other work (docs/operations.md); sets the default
-/// limit.
+/// Live dances that one core can serve beside other work (docs/operations.md). The default limit
+/// follows from it.
 inline constexpr int kStreamsPerCore = 50;
 
 /// The settings of choreod, from flags, a configuration file and the environment. Only main acts on
@@ -60,10 +60,10 @@ struct ServerConfig {
 
   /// The settings that were given, as written, by flag without its dashes: {"max-streams", "64"}.
   std::map<std::string, std::string> given;
-  /// Those in the file of --config that flags override.
+  /// Settings in the file of --config that flags override.
   std::vector<std::string> overridden;
 
-  /// HOST:PORT of `metrics`; a port alone means this machine.
+  /// `metrics` as HOST:PORT; a port alone means this machine.
   std::string MetricsAddress() const;
   // These need `max_streams` above 0.
   /// The limit on one caller's calls while another caller is connected. By default all but an

@@ -11,8 +11,8 @@ class App;
 
 namespace choreo {
 
-/// The settings that a running server changes at SIGHUP: each flag, without its dashes, and what
-/// copies its setting.
+/// The settings that a running server changes at SIGHUP: by flag without its dashes, a function
+/// that copies the setting.
 using RereadSettings = std::map<std::string, void (*)(const ServerConfig& from, ServerConfig* to)>;
 
 /// Adds all flags of choreod to `app`. Each flag fills its setting in `config`, and has an

@@ -8,7 +8,7 @@
 
 namespace choreo {
 
-/// Collects the faults that several checks find, so that all of them can be named at once.
+/// Collects the faults that several checks find, to name all at once.
 class FaultList {
  public:
   template <class Check>
@@ -21,8 +21,8 @@ class FaultList {
   }
   void Add(const Error& fault) { faults_.push_back(fault); }
 
-  /// Throws if there are faults: the only one, or an Error of as many lines, with the first one's
-  /// code.
+  /// Throws if there are faults: a single fault as it is, several as one Error with a line for each
+  /// and the first one's code.
   void Throw() const {
     if (faults_.empty()) return;
     if (faults_.size() == 1) throw Error(faults_.front());

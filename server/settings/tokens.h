@@ -19,8 +19,8 @@ namespace choreo {
 /// The authorised callers, read from a file of lines "SHA256 NAME". SHA256 is the hash, 64
 /// hexadecimal digits as printed by sha256sum, of a token that the client sends as "authorization:
 /// Bearer TOKEN". Empty lines and lines that begin with # are ignored. Tokens themselves are
-/// neither stored nor logged. A token removed from the file gives no access, but if the file has
-/// no good line, its previous tokens stay valid. A missing file admits nobody. Thread-safe.
+/// neither stored nor logged. A token removed from the file gives no access. But a file without a
+/// good line keeps its previous tokens valid. A missing file admits nobody. Thread-safe.
 class Tokens {
  public:
   /// A token's SHA-256.
@@ -42,8 +42,8 @@ class Tokens {
   grpc::Status FindHolder(std::string_view authorization, std::string* holder,
                           Hash* hash = nullptr) const;
 
-  /// Whether a token that FindHolder accepted has been revoked since, because the file as reread
-  /// lacks it. An unreadable file revokes no token.
+  /// Whether a token that FindHolder accepted has been revoked since: the reread file lacks it. An
+  /// unreadable file revokes no token.
   bool IsRevoked(const Hash& hash) const;
 
   /// Rereads the file; call regularly. Skips bad lines. Admits nobody while the file is unreadable.
@@ -72,7 +72,7 @@ class Tokens {
   void Replace(Holders holders);
   /// Admits nobody, while the file is unreadable.
   void Close();
-  /// Warns if the file contains this token instead of its hash. Both may look alike.
+  /// Warns if the file contains this token in place of its hash; the two may look alike.
   void WarnOfRawToken(std::string_view token, const Holders& holders) const;
 
   const std::filesystem::path file_;

@@ -63,7 +63,7 @@ const std::vector<double>& PrototypeTable() {
 }
 
 constexpr size_t kLanes = 16;
-constexpr size_t kTogether = 4;  // sums, of which none waits for another
+constexpr size_t kTogether = 4;  // sums that do not wait for each other
 
 /// The operands of sums of products; all sums have the same first operand if `same`.
 struct Products {
@@ -169,8 +169,8 @@ class PolyphaseKernel {
     }
   }
 
-  /// Streams with the same ratio share a filter, which may take a third of a MiB. The next stream
-  /// finds those of the last few ratios.
+  /// Streams with the same ratio share a filter, which may take a third of a MiB. The filters of
+  /// the last few ratios are kept for the next stream.
   static std::shared_ptr<const PolyphaseKernel> Shared(int64_t in_per_period, int64_t phases) {
     static std::mutex mutex;
     static std::map<std::pair<int64_t, int64_t>, std::weak_ptr<const PolyphaseKernel>> filters;

@@ -17,8 +17,7 @@ namespace {
 
 constexpr int kNormalisationWindows = 512;
 constexpr int kControlValidationWindows = 48;
-constexpr int kOwnPasses =
-    2;  // passes of scheduled sampling, each of which costs a third of a step
+constexpr int kOwnPasses = 2;  // passes of scheduled sampling; each costs a third of a step
 
 ControllersConfig ConfigOf(const PaperOptions& options) {
   ControllersConfig config;

@@ -24,7 +24,7 @@ struct DrawnWindow {
   double rate = 1;  // frames of the clip per frame
   bool mirrored = false;
 
-  // The clip's frame for frame t, of which frame 0 precedes the window.
+  // The clip's frame for frame t; frame 0 precedes the window.
   double Source(int t) const { return static_cast<double>(start - 1) + t * rate; }
 };
 
