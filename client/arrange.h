@@ -20,8 +20,7 @@ FinishedDance Mirrored(const Skeleton& skeleton, const FinishedDance& dance);
 /// Resamples a dance to another frame rate (motion/resample.h).
 FinishedDance AtRate(FinishedDance dance, double fps);
 
-/// Moves and turns a motion rigidly. Afterwards it is placed relative to `to` as it was relative to
-/// `from`.
+/// Moves and turns a motion rigidly: it is then to `to` as it was to `from`.
 Motion Moved(Motion motion, const GroundFrame& from, const GroundFrame& to);
 
 /// Moves and turns a dance so that its first frame has the position and facing of `pose`.

@@ -21,10 +21,10 @@
 
 /// A client for choreod, in plain C++ without protobuf or gRPC types.
 ///
-/// Conventions are those of model/motion/: right-handed, Y up, metres, radians, seconds. Rotations
-/// are axis-angle vectors, local to the parent. Frames are numbered from the start of the music, at
-/// the model's rate except FrameBlock::first_frame. Every failure is a choreo::Error with the
-/// server's message, which names the field, the value and the limit.
+/// Conventions as in model/motion/: right-handed, Y up, metres, radians, seconds. Rotations are
+/// axis-angle vectors, local to the parent. Frames are numbered from the start of the music, at the
+/// model's rate except FrameBlock::first_frame. Every failure is a choreo::Error with the server's
+/// message, which names the field, the value and the limit.
 namespace choreo::client {
 
 /// Servers, credentials, timeouts and retries of a Client.
@@ -36,8 +36,8 @@ struct Options {
   bool tls = false;
   /// PEM file of the authority to trust, with `tls`; empty: the system's.
   std::filesystem::path ca_certificate = {};
-  /// With `tls`: accepts any certificate, even an expired one. Meant for health checks alone.
-  /// Excludes `token_file`, because an impostor may answer.
+  /// With `tls`: accepts any certificate, even an expired one. For health checks alone. Excludes
+  /// `token_file`, because an impostor may answer.
   bool any_certificate = false;
   /// PEM files of a certificate and its key, with `tls`, if the server requires one.
   std::filesystem::path client_certificate = {}, client_key = {};
@@ -57,8 +57,8 @@ struct Options {
   double retry_s = 10;
   double first_backoff_s = 0.1;  ///< seconds before the first retry; doubled each time, up to 2 s
   /// Resumes on a server with another fingerprint if no server with the same one is left. The dance
-  /// then continues differently: smoothly or, before the first continuation, with that server's own
-  /// frames. `Resumed` reports it.
+  /// then continues differently: smoothly or, before the first continuation, with the new server's
+  /// own frames. `Resumed` reports it.
   bool allow_inexact_resume = false;
   /// Also calls servers that accept no new dances, to inspect them.
   bool even_draining = false;
@@ -89,18 +89,18 @@ class RemoteDance {
   void EndAudio();
   void SendKey(const KeyPose& key);
   void RemoveKey(const std::string& id);
-  /// Sends controls. Each replaces the earlier one of its kind (velocity factors: only those of the
-  /// named parts) from the first unfrozen frame: the frame of the last GenerateUntil or, without
-  /// one, the frame after the last key. Call before CompleteKeys.
+  /// Sends controls. Each replaces the earlier control of its kind (velocity factors: of the named
+  /// parts alone) from the first unfrozen frame on: the last GenerateUntil's or, without one, the
+  /// frame after the last key. Call before CompleteKeys.
   void SendControls(const ControlRequest& controls);
   /// Lets the server generate the frames before `frame`, which are final. Later keys may still
-  /// change. Until the first call, each key permits the frames up to itself; to edit keys, prevent
-  /// that by setting DanceConfig::generate_until.
+  /// change. Until the first call, each key permits the frames up to itself. To edit keys, set
+  /// DanceConfig::generate_until, which prevents this.
   void GenerateUntil(int64_t frame);
   /// Sends beats ahead: at least one, seconds, strictly ascending. From the first one on they
-  /// replace known beats, for transitions that begin after the frozen frames. `downbeats`: those
-  /// that begin a bar. `confidence`, 0 to 1: set it if the client predicts the beats from the music
-  /// that it sends; such beats are not reported in silence. Call before CompleteKeys.
+  /// replace known beats, for transitions that begin after the frozen frames. `downbeats`: the
+  /// beats that begin a bar. `confidence`, 0 to 1: set it if you predict the beats from the music
+  /// that you send; such beats are not reported in silence. Call before CompleteKeys.
   void SendBeats(std::span<const double> seconds, std::span<const double> downbeats = {},
                  std::optional<double> confidence = {});
   /// Sends passages ahead: at least one, ascending. From the first one on they replace known

@@ -78,7 +78,7 @@ struct DanceConfig {
   std::optional<Continuation> continuation = {};  ///< instead of `history`
   AudioFormat audio = {};
   std::optional<int64_t> frames =
-      {};  ///< the dance ends before this frame; otherwise with the music or the last key
+      {};  ///< the dance ends before this frame; none: with the music or the last key
   /// Times of the music's beats, seconds, strictly ascending, 0 to 600. Limbs are fastest on beats,
   /// and Beat messages and the report contain them. Empty: the server finds the beats of a kFile,
   /// and predicts each transition's beats from the 12 s before it for kPcmFloat.

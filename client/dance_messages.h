@@ -25,7 +25,7 @@ struct FrameBlock {
   uint32_t candidate = 0;               ///< of a transition
 };
 
-/// The largest deviation of a dance from its keys, for any joint, in metres and degrees.
+/// The most by which any joint of a dance misses a key, metres and degrees.
 inline constexpr double kMaxKeyError_m = 0.001, kMaxKeyError_deg = 0.1;
 
 using choreo::Beat, choreo::KeyReached, choreo::KeyRejected, choreo::Warning;

@@ -21,8 +21,8 @@ class DeliveryFilter {
   /// The next frame to be delivered, at the output rate.
   int64_t next_frame() const { return next_frame_; }
   /// Prepares for another server, which continues from `frame` (at the model's rate) and receives
-  /// all messages again. `late`: the keys before that frame, each listed as often as it was sent.
-  /// The new server will report these as rejected or as reached.
+  /// all messages again. `late`: the keys before `frame`, each as often as it was sent. The new
+  /// server reports them as rejected or as reached.
   void Restart(int64_t frame, std::vector<KeyPlace> late);
   /// Removes the frames that were delivered already. Returns false if none is left. Throws
   /// Error(kInternal) if frames are missing.

@@ -9,7 +9,7 @@
 #include "model/messages/dance_manner.h"
 
 /// Edits finished dances. Frames outside an edit stay the same, bit for bit. GenerateTransition
-/// generates those inside again, smoothly continuing the frames before and leading into the frames
+/// generates the frames inside again: they continue the frames before, and lead into the frames
 /// after.
 ///
 /// Frame numbers count from the dance's first frame, at the model's rate. A dance at another rate
@@ -18,9 +18,9 @@ namespace choreo::client {
 
 /// Seconds of music after a frame that its music features need, rounded up.
 inline constexpr double kMusicBeyond_s = 0.5;
-/// Seconds of music before the first frame to which its energy is relative where the song's
-/// energies are unknown, as far as they fit into kMaxMusicBytes. Fewer than in a stream, because
-/// each edit sends them.
+/// If the song's energies are unknown: seconds of music before the first frame to which its energy
+/// is relative, as far as kMaxMusicBytes allows. Fewer than in a stream, because each edit sends
+/// them.
 inline constexpr double kMusicBefore_s = 35;
 inline constexpr double kMaxMusicBytes = 12 << 20;
 
@@ -69,10 +69,9 @@ struct EditedDance {
   std::vector<Warning> warnings = {};  ///< from the server, and about knees bent backwards
 };
 
-/// Sets a transition's music: the part of a song on which its frames, starting at `first`, and
-/// their energy depend. Sends only that part because messages have a size limit. Sets none for a
-/// model without music. `song`: as EditOptions::audio. Throws Error(kInvalidArgument) whose field
-/// is "audio".
+/// Sets a transition's music: the part of a song on which its frames, from `first` on, and their
+/// energy depend; messages have a size limit. Sets none for a model without music. `song`: as
+/// EditOptions::audio. Throws Error(kInvalidArgument) whose field is "audio".
 void SetMusic(const Audio& song, const ModelDescription& model, int64_t first,
               TransitionRequest* request);
 
@@ -91,21 +90,21 @@ EditedDance SetKey(const Client& client, const FinishedDance& dance, const EditO
 EditedDance DanceAnew(const Client& client, const FinishedDance& dance, const EditOptions& options,
                       const Gap& gap);
 
-/// Generates `takes` versions of a gap, each as DanceAnew does. They are the candidates of one
-/// transition if it can span the gap; otherwise each take has the next seed. Throws as DanceAnew
+/// Generates `takes` versions of a gap, each as DanceAnew does. They are one transition's
+/// candidates if it can span the gap; otherwise each take has the next seed. Throws as DanceAnew
 /// does.
 std::vector<EditedDance> DanceTakes(const Client& client, const FinishedDance& dance,
                                     const EditOptions& options, const Gap& gap, int takes);
 
-/// Generates a whole dance again through its keys alone, as Client::Dance does. With unchanged keys
-/// and options, the frames are those of the dance before it was edited. `keys`: with frames, in
-/// order. Throws as Client::Dance does, and Error(kInvalidArgument) for a dance without frames.
+/// Generates a whole dance again through its keys alone, as Client::Dance does. Unchanged keys and
+/// options give the frames that the dance had before edits. `keys`: with frames, in order. Throws
+/// as Client::Dance does, and Error(kInvalidArgument) for a dance without frames.
 EditedDance DanceAllAnew(const Client& client, const FinishedDance& dance,
                          const EditOptions& options, const std::vector<KeyPose>& keys);
 
-/// Makes a dance loop: generates the frames after `from`, and `added` ones after the dance's end,
-/// at least one in all, so that they lead back to the first ones. A dance at another rate than the
-/// model's also gets the frames up to the model's next one. Throws as DanceAnew does.
+/// Makes a dance loop: generates the frames after `from`, and `added` frames after the dance's end,
+/// at least one in all, which lead back to the first frames. A dance at another rate than the
+/// model's also gets the frames up to the model's next frame. Throws as DanceAnew does.
 EditedDance CloseLoop(const Client& client, const FinishedDance& dance, const EditOptions& options,
                       int64_t from, int64_t added = 0);
 

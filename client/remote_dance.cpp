@@ -217,7 +217,7 @@ Message RemoteDance::Impl::HandleHeader(const v1::Header& header) {
 
 Message RemoteDance::Impl::HandleSummary(const v1::DanceSummary& summary) {
   Report report = FromProto(summary.report(), summary.timing());
-  // The server counts only the frames that it generated itself: adds those of earlier servers.
+  // The server counts only its own frames: adds the earlier servers'.
   report.frames += report.measured_from - header_->first_frame;
   complete_ = true;
   // Everything has been received, so the status does not matter.

@@ -28,8 +28,7 @@ class Attempt {
   Attempt& operator=(const Attempt&) = delete;
 
   const Replicas::Server& server() const { return server_; }
-  /// The call's name in the server's log, known after the first Read. Empty if the server gives
-  /// none.
+  /// The call's name in the server's log, known after the first Read. Empty if the server has none.
   std::string StreamId() const;
   /// Waits for the next response. Returns false at the end of the call.
   bool Read(v1::StreamDanceResponse* response) { return stream_->Read(response); }
@@ -71,8 +70,8 @@ struct RemoteDance::Impl {
   void Recover(const grpc::Status& status);
   /// Returns the part of a response for the caller, if any.
   std::optional<Message> Handle(const v1::StreamDanceResponse& response);
-  /// Whether a server that restarts the dance would generate other frames without permission
-  /// (Options::allow_inexact_resume).
+  /// Whether a server that restarts the dance would generate other frames, which
+  /// Options::allow_inexact_resume does not allow.
   bool IsOtherDance(const v1::Header& header) const;
   Message HandleHeader(const v1::Header& header);
   Message HandleSummary(const v1::DanceSummary& summary);
@@ -94,7 +93,7 @@ struct RemoteDance::Impl {
   std::string fingerprint_;  // of the last server that generated frames
   std::string first_stream_id_;
   std::optional<DeliveryFilter> filter_;
-  std::string lost_because_;  // if not empty, the next header is that of a resumption
+  std::string lost_because_;  // if not empty, the next header is a resumed dance's
   bool complete_ = false;
 };
 

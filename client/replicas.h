@@ -62,13 +62,13 @@ class Patience {
   std::optional<Clock::time_point> deadline() const { return deadline_; }
   /// Returns how long to wait after a failure of the server at `address` before a retry, on the
   /// same server or another one (`elsewhere`). Returns none if a retry is useless or no longer
-  /// allowed, or the server asks to wait longer than is left of Options::retry_s. Throws what
+  /// allowed, or if the server asks for a longer wait than is left of Options::retry_s. Throws what
   /// Options::before_retry throws.
   std::optional<std::chrono::duration<double>> Next(
       const grpc::Status& failed, const std::string& address, bool elsewhere,
       std::chrono::steady_clock::time_point now = std::chrono::steady_clock::now());
-  /// The status to report to the caller after Next returned none. A refusal by a reachable server
-  /// takes precedence over another server being unreachable.
+  /// The status to report to the caller after Next returned none. A reachable server's refusal
+  /// takes precedence over unreachable servers.
   const grpc::Status& Verdict() const { return verdict_; }
   /// The origin of Verdict: an address or, if no server was reached, all addresses tried since the
   /// last progress.

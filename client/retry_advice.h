@@ -10,8 +10,8 @@ namespace choreo::client {
 
 struct Options;
 
-/// Converts a failed call's status to an error with its code and its message, which already names
-/// the field.
+/// Converts a failed call's status to an error of its code, with its message, which names the
+/// field.
 Error ToError(const grpc::Status& status);
 
 /// Whether the status means that no server was reached.
@@ -22,8 +22,8 @@ bool IsAway(const grpc::Status& status);
 /// which TLS option may be missing. For a full server, it names the server and when to retry.
 Error ToError(const grpc::Status& status, const std::string& address, const Options& options);
 
-/// The status for restarting a dance on a server of another fingerprint, which would generate other
-/// frames. Servers refuse a continuation with the same status; another server may accept it.
+/// The status if only a server of another fingerprint could restart a dance, with other frames.
+/// Servers refuse a continuation with the same status; another server may accept it.
 grpc::Status RefusedFingerprint(const std::string& begun, const std::string& address,
                                 const std::string& found);
 

@@ -16,7 +16,7 @@
 namespace choreo::studio {
 namespace {
 
-/// A path in our folder for the page's file name, of which only the extension is used.
+/// A path in our folder with the extension of the page's file name.
 std::filesystem::path PlaceFor(const ScratchFolder& folder, const std::string& name) {
   return folder.path() / ("file" + SmallExtension(name));
 }

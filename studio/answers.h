@@ -4,8 +4,8 @@
 
 #include "studio/studio_context.h"
 
-/// Answers the page's simple calls. Pure, except for the server and temporary files. Errors use the
-/// page's file names. `music`: the dance's music, or null. All throw Error.
+/// Answers the page's simple calls. Pure, except for the server and temporary files. Errors name
+/// files as the page does. `music`: the dance's music, or null. All throw Error.
 namespace choreo::studio {
 
 std::shared_ptr<const Song> HearSongOf(const StudioContext& context, const File& file);

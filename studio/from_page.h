@@ -10,8 +10,7 @@
 #include "studio/studio.pb.h"
 
 /// The page's messages (of choreo.v1) as the client library's structs, the inverse of ToProto in
-/// client/convert.h. Checks values; throws Error(kInvalidArgument) naming the field of an unusable
-/// one.
+/// client/convert.h. Throws Error(kInvalidArgument), naming the field, for an unusable value.
 namespace choreo::studio {
 
 /// `field`, `pose`: the paths of the key and of its pose in errors.

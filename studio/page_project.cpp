@@ -103,7 +103,7 @@ void AddDancers(const authoring::Dancers& stage, const std::string& name,
   }
 }
 
-/// `name`: the file's. `counts`: those of the music, for controls.
+/// `name`: the file's. `counts`: the music's, for controls.
 Project ToPage(const authoring::Project& project, const std::string& name,
                const StudioContext& context, const authoring::Counts& counts) {
   Project out;

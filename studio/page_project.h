@@ -3,8 +3,8 @@
 #include "client/authoring/project_file.h"
 #include "studio/studio_context.h"
 
-/// Projects as the page's messages. client/authoring/project_file.h reads and writes their files,
-/// for the page has no parser. Floats are preserved in both directions.
+/// Projects as the page's messages. The page has no parser: client/authoring/project_file.h reads
+/// and writes the files. Floats stay equal in both directions.
 namespace choreo::studio {
 
 inline constexpr const char* kUnnamed = "project";  ///< the name of input in errors
@@ -17,8 +17,8 @@ Response ReadProject(const StudioContext& context, const ProjectFile& request);
 /// name.
 Response WriteProject(const StudioContext& context, const Project& project);
 
-/// The page's project without its dancers, as its file would be read. Throws
-/// Error(kInvalidArgument) whose field is `kUnnamed`:MEMBER.
+/// The page's project without its dancers, as if read from its file. Throws Error(kInvalidArgument)
+/// whose field is `kUnnamed`:MEMBER.
 authoring::Project FromPage(const Project& message, const client::ModelDescription& model);
 
 /// The dancers of the page's project, without their own keys. Throws as CheckDancers does.

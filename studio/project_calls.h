@@ -31,7 +31,8 @@ class ProjectCalls {
   ProjectCalls& operator=(const ProjectCalls&) = delete;
 
   Reply Model() const;
-  /// Returns at once; calls `answer` once from another thread. Answers 503 to all beyond a few.
+  /// Returns at once; calls `answer` once from another thread. Answers 503 while a few others are
+  /// in progress.
   void Dance(std::string project, bool as_bvh, Answer answer);
 
   static Reply Refuse(unsigned status, const std::string& message);

@@ -9,11 +9,11 @@
 
 namespace choreo::studio {
 
-/// A project's dance in the client library's form. Gives the frames of `choreo dance --project`.
+/// A project's dance in the client library's form. It has the frames of `choreo dance --project`.
 struct ProjectDance {
   client::DanceConfig config = {};
   authoring::DanceKeys keys = {};  ///< in order of time, including the keys that hold others
-  authoring::WrittenControls controls = {};  ///< name the config's in errors
+  authoring::WrittenControls controls = {};  ///< for naming config.controls in errors
 
   /// Translates an error about the sent request to the project's fields.
   Error InTermsOf(const Error& error) const;

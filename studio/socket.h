@@ -16,7 +16,8 @@ namespace choreo::studio {
 /// threads are queued.
 class Socket : public std::enable_shared_from_this<Socket> {
  public:
-  /// Sessions end on `leaving`: their last calls may take long while other pages are served.
+  /// Sessions end on `leaving`, because their last calls may take long while other pages are
+  /// served.
   Socket(boost::beast::tcp_stream stream, const StudioContext& context,
          boost::asio::thread_pool* leaving);
 

@@ -19,7 +19,7 @@
 namespace choreo::authoring {
 namespace {
 
-constexpr double kMaxSongSeconds = 1e6;  // of a song, of which the dance may use only a part
+constexpr double kMaxSongSeconds = 1e6;  // of a song; the dance may use only a part
 constexpr std::streamsize kMaxLineLength = 1000;
 
 /// Extends the count in the bar from counted beats to the others.
@@ -118,7 +118,7 @@ bool IsNear(double bpm, double other) {
   return std::max(ratio, 1 / ratio) <= 1 + kSameTempo;
 }
 
-/// Whether this tempo, or one that listeners confuse with it, is that of eight beats somewhere.
+/// Whether eight beats somewhere have this tempo, or one that listeners confuse with it.
 bool HasTempo(std::span<const double> beats, double bpm) {
   constexpr size_t kBeats = 8;
   for (size_t i = 0; i + kBeats < beats.size(); ++i) {

@@ -27,18 +27,17 @@ struct BeatOptions {
 /// Throws Error(kInvalidArgument) for beat options without a song.
 void RequireSong(const BeatOptions& options, const std::string& song);
 
-/// Notes, by the sink (notes.h), given beats behind a song's end, if any. `source`: their file.
+/// Notes how many given beats lie behind a song's end, if any (notes.h). `source`: the beats' file.
 void NoteBehind(const std::string& source, int64_t count, double end_s);
 
-/// Finds or reads, depending on the options, a song's beats from second `start` on. Warns,
-/// by the sink, if the requested tempo is not found in the song. Throws
-/// Error(kInvalidArgument) whose field is "beats", "downbeat" or a line of the file. `mono` as in
-/// TrackBeats.
+/// Finds or, by the options, reads a song's beats from second `start` on. Warns (notes.h) if the
+/// song does not have the requested tempo. Throws Error(kInvalidArgument) whose field is "beats",
+/// "downbeat" or a line of the file. `mono` as in TrackBeats.
 BeatTrack BeatsAsAsked(std::span<const Onset> onsets, double start, const BeatOptions& options,
                        std::span<const float> mono = {});
 
-/// Applies the options for half and double time and for a downbeat to known beats and their
-/// downbeats, in seconds of a dance that begins at second `start` of its song.
+/// Applies the options for half time, double time and a downbeat to known beats and downbeats, in
+/// seconds of a dance that begins at second `start` of its song.
 void ChangeBeats(const BeatOptions& options, double start, std::vector<double>* beats,
                  std::vector<double>* downbeats);
 

@@ -19,16 +19,16 @@ struct CompositionRequest {
   size_t one = 0;                      ///< index of the beat that is count 1
   std::vector<Passage> passages = {};  ///< repeats in the music
   uint64_t seed = 0;
-  /// The seed of the path over the floor. Dancers share it so that a formation keeps its shape.
+  /// The seed of the path over the floor, which dancers share to keep their formation.
   std::optional<uint64_t> way = {};
-  /// Time of the last key, at most `seconds`; none: the last one that fits the bars.
+  /// Time of the last key, at most `seconds`; none: the last time that fits the bars.
   std::optional<double> end_s = {};
   std::string named = "seconds";  ///< the field of errors about `seconds`
 };
 
-/// Draws a library pose for a key at each of `times`, ascending seconds. No pose is drawn twice in
-/// a row or again before all have been drawn, and the first pose is not an ending. A repeated
-/// passage gets the poses of the original. Deterministic. Returns indices of `poses`.
+/// Draws a library pose for a key at each of `times`, ascending seconds. Draws all poses before any
+/// pose again, never one twice in a row, and no ending first. A repeated passage gets the poses of
+/// the original. Deterministic. Returns indices of `poses`.
 std::vector<size_t> DrawPoses(std::span<const double> times, std::span<const Passage> passages,
                               uint64_t seed, std::span<const LibraryPose> poses);
 

@@ -22,7 +22,7 @@ struct Counts {
 };
 
 /// Makes counts from beats. Count 1 is the first of `ones` (downbeats, or the 1 of each eight), as
-/// on the studio's ruler, or the first beat if there are none.
+/// on the studio's ruler; without any, the first beat.
 Counts CountsFrom(std::vector<double> beats, std::span<const double> ones);
 
 /// A moment or a duration, written "2.5" (seconds) or "8c" (counts).
@@ -30,9 +30,9 @@ struct WrittenTime {
   double amount = 0;
   bool counts = false;
 
-  /// Reads a duration: returns the time, in seconds, this much later than `seconds`. Counts
-  /// continue at their pace before the first beat and after the last. Throws
-  /// Error(kInvalidArgument, field) for counts in music with fewer than two beats.
+  /// Reads a duration: returns the second that is this much later than `seconds`. Counts keep their
+  /// pace before the first beat and after the last. Throws Error(kInvalidArgument, field) for
+  /// counts in music with fewer than two beats.
   double After(double seconds, const Counts& counted, const std::string& field) const;
 
   /// Reads a moment: returns seconds unchanged, and converts a count to seconds. Throws as After
@@ -43,12 +43,12 @@ struct WrittenTime {
 /// Converts a second to a count, in music with at least two beats: the inverse of WrittenTime::In.
 double CountAt(double seconds, const Counts& counted);
 
-/// The second that a frame stands for: that of the simplest count on it (a whole one, a half, a
-/// third, a quarter), or the frame's own. Keys have frames; this keeps their rounding from being
-/// moved by counts and rounded once more. Without two beats: the frame's own.
+/// The exact second of a key that was rounded to `frame`: a whole, half, third or quarter count
+/// that rounds to it, the simplest first. Without such a count or two beats: frame / fps. So later
+/// shifts by counts do not add to the rounding.
 double SecondOf(int64_t frame, double fps, const Counts& counted);
 
-/// Multiplies the distance of `seconds` from `begin` by `times`: in counts if the music has at
+/// Returns the second `times` as far from `begin` as `seconds` is: in counts if the music has at
 /// least two beats, otherwise in seconds.
 double Stretched(double seconds, double begin, double times, std::span<const double> beats);
 

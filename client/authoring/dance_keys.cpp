@@ -15,7 +15,8 @@
 namespace choreo::authoring {
 namespace {
 
-/// For keys in order of time: maps each held key's index to those of the keys that hold its pose.
+/// For keys in order of time: maps each held key's index to the indices of the keys that hold its
+/// pose.
 std::map<size_t, std::vector<size_t>> HoldsOf(const DanceKeys& keys) {
   std::map<std::string, size_t> index_of;  // by place
   for (size_t i = 0; i < keys.places.size(); ++i) {

@@ -38,21 +38,19 @@ std::string DescribeAfterEnd(int64_t frame, const DanceLength& length);
 /// A key's frame at the model's rate.
 int64_t FrameOf(const client::KeyPose& key, double fps);
 
-/// Moves a key at the very end of a dance, such as at second 30 of 30, to the last frame, which is
-/// what people mean. Throws Error(kInvalidArgument), whose field begins with `place`, for a later
-/// key.
+/// Moves a key at the very end of a dance, such as at second 30 of 30, to the last frame: people
+/// mean that. Throws Error(kInvalidArgument), whose field begins with `place`, for a later key.
 void FitIntoDance(const DanceLength& length, const std::string& place, client::KeyPose* key);
 
-/// Explains that the hold of the key `held` ends at frame `now` instead of `was` because of the key
-/// `key`.
+/// Says that the hold of key `held` ends at frame `now`, not `was`, because of key `key`.
 std::string DescribeHoldEnd(const std::string& held, int64_t now, int64_t was,
                             const std::string& key, int64_t key_frame, double fps);
 
 /// The id of the key whose pose the key at `index` holds; empty if it holds none.
 std::string HeldKey(const DanceKeys& keys, size_t index);
 
-/// Sorts keys by time for sending: an earlier key sent after a later one would be too late. A key
-/// within the hold of another one ends that hold kWayFromHold earlier; `warnings` reports this.
+/// Sorts keys by time, because a key sent after a later one would be too late. A key within
+/// another's hold ends the hold kWayFromHold before itself; `warnings` says so.
 DanceKeys ByTime(DanceKeys keys, double fps);
 
 /// Reads key poses from sources (see ReadKeys in key_file.h) and fits each into the dance. Throws
@@ -61,8 +59,8 @@ DanceKeys ByTime(DanceKeys keys, double fps);
 DanceKeys ReadDanceKeys(const std::vector<std::string>& sources, const DanceLength& length,
                         const Skeleton& skeleton, const Counts& counts = {});
 
-/// Translates an error about "keyframes[i]", numbered as sent, so that it names the place where the
-/// key was written. Returns other errors unchanged.
+/// Translates an error about "keyframes[i]", numbered as sent, to the place where the key was
+/// written. Returns other errors unchanged.
 Error InTermsOf(const DanceKeys& keys, const Error& error);
 
 }  // namespace choreo::authoring

@@ -20,15 +20,15 @@ inline constexpr double kUsuallyApart = 0.2;     ///< metres, so that dancers do
 /// One of several dancers. Empty members have the value common to all dancers.
 struct Dancer {
   std::string id;
-  Eigen::Vector2d place = {0, 0};  ///< x and z, on the stage, of the dance's origin
+  Eigen::Vector2d place = {0, 0};  ///< where the dance's origin is on the stage, x and z
   double facing = 0;               ///< degrees by which the dance is turned: 90 is along x
   bool mirrored = false;           ///< swaps left and right
   std::optional<WrittenTime> after =
-      {};  ///< the delay of the whole dance, before which the dancer stands still
+      {};  ///< the whole dance's delay, during which the dancer stands still
   std::optional<uint64_t> seed = {};
   std::string style = {};
   std::vector<std::string> keyframes = {};  ///< own keys: sources for ReadKeys (key_file.h)
-  std::optional<DanceKeys> own_keys = {};   ///< of a Project: what `keyframes` say
+  std::optional<DanceKeys> own_keys = {};   ///< in a Project: what `keyframes` say
 };
 
 /// The dancers of a file; docs/dancers.md describes it.

@@ -14,13 +14,13 @@
 
 namespace choreo::authoring {
 
-/// The indices of the two bodies on a stage that come nearest to each other, and their distance.
+/// The two bodies on a stage that come nearest to each other, by index, and their distance.
 struct NearestPair {
   size_t one = 0, other = 0;
   BodyDistance distance = {};
 };
 
-/// Finds the nearest pair of at least two bodies. `moved`: the offset of each from where its dance
+/// Finds the nearest pair of at least two bodies. `moved`: each body's offset from where its dance
 /// was made, metres.
 NearestPair FindNearest(const std::vector<MovingBody>& bodies,
                         const std::vector<Eigen::Vector3d>& moved);
@@ -48,11 +48,11 @@ client::FinishedDance OnStage(const Skeleton& skeleton, const Dancer& dancer,
 struct Formed {
   double factor = 1;  ///< by which the dancers' places were spread about their middle
   std::optional<NearestPair> nearest = {};  ///< none for a single dancer
-  std::optional<NearestPair> asked = {};    ///< at the places asked for, if they were spread
+  std::optional<NearestPair> asked = {};    ///< at the requested places, if these were spread
 };
 
-/// Moves dancers on stage apart if they would come nearer to each other than `apart`, metres. With
-/// 0 they stay at their places.
+/// Spreads dancers who would come nearer to each other than `apart`, metres. 0: leaves them at
+/// their places.
 Formed KeepApart(const std::vector<Dancer>& dancers, double apart, const Skeleton& skeleton,
                  std::vector<client::FinishedDance>* dances);
 

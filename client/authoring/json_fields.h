@@ -48,8 +48,8 @@ inline constexpr size_t kMaxTextBytes = size_t{64} << 20;
 /// such as "key file".
 std::string ReadText(const std::filesystem::path& path, const std::string& kind);
 
-/// Parses JSON. Refuses duplicate members. An error's field, NAME:LIST[i].MEMBER, names the last
-/// place that could be read.
+/// Parses JSON. Refuses duplicate members. An error's field, NAME:LIST[i].MEMBER, is the last place
+/// that could be read.
 nlohmann::json ParseJson(std::string_view text, const std::string& name);
 
 /// Finds the list called `list` in the outermost object of the file `name`. Throws if it is missing
@@ -70,7 +70,7 @@ void CheckFileMembers(const nlohmann::json& file, const std::string& name,
 /// Reads a time from JSON: a number of seconds, or text for ParseTime.
 WrittenTime JsonTime(const nlohmann::json& value, const std::string& field);
 
-/// A moment given in JSON by exactly one of two members: `time`, in seconds or counts, or `frame`.
+/// A moment in JSON: exactly one of the members `time`, in seconds or counts, and `frame`.
 struct Moment {
   double time_s = 0;
   std::optional<int64_t> frame = {};
@@ -78,8 +78,8 @@ struct Moment {
 Moment ParseMoment(const nlohmann::json& value, const std::string& field,
                    const Counts& counts = {});
 
-/// Appends the frame, at `fps`, of the moment in `value`, which must be after the frames before it
-/// and within the longest dance.
+/// Appends the frame, at `fps`, of the moment in `value`. It must be after all `frames` and within
+/// the longest dance.
 void AppendFrame(const nlohmann::json& value, const std::string& field, double fps,
                  const Counts& counts, std::vector<int64_t>* frames);
 

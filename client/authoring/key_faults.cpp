@@ -15,7 +15,7 @@ namespace {
 constexpr double kJump = 0.1;  // metres: a jump's least height above the floor
 
 /// Explains why a key in the air will be danced standing on the floor, as keys without a place are;
-/// empty for other keys. Keys without a height have that of the rest pose.
+/// empty for other keys. Keys without a height have the rest pose's.
 std::string LostJump(const client::KeyPose& key, const Skeleton& skeleton) {
   const double height = key.pose.root_position.y();
   if (key.mask.root_position || height == skeleton.pelvis_height) return "";

@@ -21,17 +21,15 @@ void RefuseBends(const DanceKeys& keys, const Skeleton& skeleton);
 /// of its height lasts.
 void RefuseHeldInAir(const client::KeyPose& key, double seconds, const std::string& field,
                      const Skeleton& skeleton);
-/// Throws Error(kInvalidArgument), whose field is like "keys.json:keyframes[2].hold", for any key
-/// in the air that is held for longer than a jump of its height lasts.
+/// The same for all of these keys. The field is like "keys.json:keyframes[2].hold".
 void RefuseHeldInAir(const DanceKeys& keys, double fps, const Skeleton& skeleton);
 
 /// Returns the warnings about impossible keys, for keys without a file, in order of time.
 std::vector<client::Warning> KeyFaults(const std::vector<client::KeyPose>& keys, double fps,
                                        const Skeleton& skeleton);
 
-/// Returns the warnings about a key that is set in a dance. `held_to`: the last frame in which its
-/// pose is held, or its own. `around`: the poses before and after, in order of time, with their
-/// names in messages.
+/// Returns the warnings about a key set in a dance. `held_to`: the last frame of its hold, or its
+/// own frame. `around`: the poses before and after, in order of time, with their names in messages.
 std::vector<client::Warning> KeyFaults(const client::KeyPose& key, int64_t held_to, double fps,
                                        const Skeleton& skeleton,
                                        const std::vector<TimedPose>& around);

@@ -19,8 +19,8 @@ client::KeyPose ReadNamedPose(const nlohmann::json& value, const std::string& fi
 void ReadJoints(const nlohmann::json& joints, const std::string& field, const Skeleton& skeleton,
                 client::KeyPose* key);
 
-/// Limits a key to the joints named in its member `joints`, an object of degrees, and to `place`
-/// and `facing`, if it has them.
+/// Limits a key to the joints named in its member `joints`, an object of degrees, and to its
+/// `place` and `facing`, if any.
 void LimitToNamed(const nlohmann::json& value, const Skeleton& skeleton, client::KeyPose* key);
 
 }  // namespace choreo::authoring

@@ -8,16 +8,16 @@
 
 namespace choreo::authoring {
 
-/// A choreod of this process's own, on a free port of this machine. It stops when this object is
+/// This process's own choreod, on a free port of this machine. It stops when this object is
 /// destroyed or this process dies.
 class LocalServer {
  public:
   /// The path of the choreod beside this program; empty if there is none.
   static std::filesystem::path Program();
-  /// Starts the choreod beside this program and waits until it listens. `model`: the name of a
-  /// shipped model, to serve only that one; any other name: the default models. Throws
-  /// Error(kNotFound) if there is no choreod, and Error(kUnavailable) if it does not listen within
-  /// two minutes; its stderr gives the reason.
+  /// Starts the choreod beside this program and waits until it listens. `model`: the shipped model
+  /// to serve alone; any other name: the default models. Throws Error(kNotFound) if there is no
+  /// choreod, and Error(kUnavailable) if it does not listen within two minutes; its stderr gives
+  /// the reason.
   static std::unique_ptr<LocalServer> Start(const std::string& model);
   /// `listen`: HOST:PORT; port 0 takes a free one.
   explicit LocalServer(const std::filesystem::path& program,

@@ -18,7 +18,7 @@ namespace choreo::authoring {
 struct Music {
   DecodedAudio audio;                 ///< from `start` on; possibly only the beginning is kept
   std::vector<float> mono;            ///< at 22 050 Hz
-  std::vector<float> onset_strength;  ///< from which the beats were found
+  std::vector<float> onset_strength;  ///< in which the beats were found
   BeatTrack track;
   std::vector<Passage> passages;  ///< repeats
   std::vector<float> energies;    ///< MusicAnalysis::energies
@@ -31,9 +31,9 @@ struct Music {
 DecodedAudio ReadSong(const std::filesystem::path& path, double seconds, double start,
                       double more = 0);
 
-/// Decodes a song from second `start` on and finds its beats. Analyses all of it, as far as the
-/// limits allow, so that the beats do not depend on the dance's length. Keeps the samples for a
-/// dance of `seconds`. Throws as ReadSong and BeatsAsAsked do.
+/// Decodes a song from second `start` on and finds its beats. Analyses as much of the song as the
+/// limits allow, so that beats do not depend on the dance's length. Keeps the samples for a dance
+/// of `seconds`. Throws as ReadSong and BeatsAsAsked do.
 Music ReadMusic(const std::filesystem::path& path,
                 double seconds = std::numeric_limits<double>::infinity(), double start = 0,
                 const BeatOptions& beats = {});
@@ -48,7 +48,7 @@ Counts CountsOf(const Music& music);
 std::vector<double> BeatsBefore(const Music& music, double seconds);
 
 /// Sets the configuration's beats, downbeats, passages, energies and music id, for a dance of
-/// `seconds`. Keeps beats that the configuration already has, as far as they are before `seconds`.
+/// `seconds`. Keeps the configuration's own beats before `seconds`.
 void ConfigureMusic(const Music& music, double seconds, client::DanceConfig* config);
 
 /// Returns the samples to send for a dance of `seconds`: the song's beginning.

@@ -3,7 +3,7 @@
 #include <functional>
 #include <string>
 
-/// This library prints nothing. What it notes about songs, beats and motions goes to the program.
+/// This library prints nothing: it passes notes about songs, beats and motions to the program.
 namespace choreo::authoring {
 
 /// Receives a line for people: "note: song.wav: ..." or "warning: --tempo ...". Called from any

@@ -12,22 +12,22 @@ namespace choreo::authoring {
 
 inline constexpr double kMaxFacing = 360;  ///< degrees, either way
 
-/// Where on the floor a pose is put, and which way it faces. What is not given stays.
+/// Where on the floor to put a pose, and which way to face it. Empty members leave it as it is.
 struct Placing {
   std::optional<Eigen::Vector2d> place = {};  ///< x and z, metres
   std::optional<double> facing = {};          ///< degrees about +Y: 90 is along x
 
   bool IsGiven() const { return place || facing; }
-  /// The frame that a pose in `from` has when it is placed.
+  /// The ground frame, after placing, of a pose whose ground frame is `from`.
   GroundFrame From(GroundFrame from) const;
 };
 
 /// Reads the members place and facing of a key. Throws Error(kInvalidArgument), naming the field.
 Placing ReadPlacing(const nlohmann::json& value, const std::string& field);
 
-/// Moves a pose over the floor so that its root is above the place, and turns it there so that its
-/// root faces that way. Throws Error(kInvalidArgument, field) for a place of a key without a root
-/// position, which says how high the root is.
+/// Moves a pose over the floor so that its root is above the place, and turns it there to the
+/// facing. Throws Error(kInvalidArgument, field) for a place if the key has no root position: the
+/// root's height is unknown.
 void PlaceRoot(const Placing& placing, const std::string& field, client::KeyPose* key);
 
 }  // namespace choreo::authoring

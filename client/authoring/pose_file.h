@@ -12,7 +12,7 @@ struct DescribedPose {
   client::KeyPose key;
   std::string description;
   std::vector<std::string> tags;
-  double hold_s = 0;  ///< how long the pose is held, seconds; 0: it is not
+  double hold_s = 0;  ///< how long to hold the pose, seconds; 0: not at all
 };
 
 /// The text of a pose file: metres and radians to 4 decimals, one line per joint.

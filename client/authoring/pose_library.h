@@ -18,9 +18,9 @@ struct LibraryPose {
   Pose pose;
 };
 
-/// The tags of poses. The first tag of each pose is one of "standing" and "travelling" (on the
-/// feet), "jump" (in the air) and "floor" (on hands, knees or the seat); no other tag is one of
-/// these. No dance begins with a pose tagged "ending".
+/// The tags of poses. The first tag of each pose, and only the first, is one of "standing" and
+/// "travelling" (on the feet), "jump" (in the air) and "floor" (on hands, knees or the seat). No
+/// dance begins with a pose tagged "ending".
 const std::vector<std::string>& PoseTags();
 
 /// All poses, sorted by id. They are compiled into the program.
@@ -31,7 +31,7 @@ bool IsEnding(const LibraryPose& pose);
 /// Retargets all poses to this skeleton (fit/retarget.h). Throws Error(kInvalidArgument) whose
 /// field is "keyframes" if it lacks joints for retargeting.
 std::vector<LibraryPose> PosesFor(const Skeleton& skeleton);
-/// Returns the poses from which keys are drawn, all that are standing or travelling, retargeted to
+/// Returns the poses from which keys are drawn: all standing and travelling ones, retargeted to
 /// this skeleton. Throws as PosesFor does.
 std::vector<LibraryPose> PosesToDance(const Skeleton& skeleton);
 

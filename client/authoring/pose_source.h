@@ -12,19 +12,19 @@ namespace choreo::authoring {
 struct NamedPose {
   client::KeyPose key = {};
   bool has_place = true;  ///< false for library poses, which are around the origin, facing +Z
-  /// Keys that hold the pose, if a key file gives any, with times relative to the key's.
+  /// The keys of a key file that hold the pose, if any, with times relative to the key's.
   std::vector<client::KeyPose> held = {};
 };
 
-/// The seconds for which the pose is held; 0 if it is not.
+/// How long the pose is held, seconds; 0 if it is not.
 inline double HeldSeconds(const NamedPose& pose) {
   return pose.held.empty() ? 0 : pose.held.back().time_s - pose.key.time_s;
 }
 
 /// Reads a pose by its name in the library, or from a source for ReadKeys (key_file.h): a key file
-/// with one pose, KEYS.json@ID, or MOTION@SECOND. `counts`: those of the music, for times in
-/// counts. Throws as FindLibraryPose and ReadKeys do, and Error(kInvalidArgument) for a source with
-/// several poses.
+/// with one pose, KEYS.json@ID, or MOTION@SECOND. `counts`: the music's, for times in counts.
+/// Throws as FindLibraryPose and ReadKeys do, and Error(kInvalidArgument) for a source with several
+/// poses.
 NamedPose ReadPose(const std::string& source, const Skeleton& skeleton, const Counts& counts = {});
 
 }  // namespace choreo::authoring

@@ -37,13 +37,13 @@ struct Project : DanceManner {
   WrittenControls controls = {};
   bool has_keys = false;     ///< whether a file has keys
   bool has_dancers = false;  ///< whether a file has several dancers
-  /// What ParseProject leaves empty. Keys need a skeleton, and perhaps the song's counts: KeysIn
-  /// (key_file.h) reads them, and ParseDancers the dancers.
+  /// ParseProject leaves these empty, because keys need a skeleton, and perhaps the song's counts.
+  /// KeysIn (key_file.h) reads the keys, ParseDancers the dancers.
   DanceKeys keys = {};
   Dancers stage = {};
 
-  /// Sets the song's beats with their counts, which may continue over several bars, and finds
-  /// those that begin a bar or an eight. Throws Error(kInvalidArgument) whose field begins with
+  /// Sets the song's beats and their counts, which may run over several bars, and finds the beats
+  /// that begin a bar or an eight. Throws Error(kInvalidArgument) whose field begins with
   /// NAME:beats or NAME:bar.
   void SetBeats(std::vector<double> times, std::vector<int> counted, int in_bar,
                 const std::string& name);
@@ -58,15 +58,15 @@ struct Project : DanceManner {
 Project ParseProject(const nlohmann::json& file, const std::string& name,
                      std::span<const ControlRow> rows = kControls);
 
-/// Reads a project from a file, to which the song's path is relative. Throws as ParseProject does,
-/// and Error(kNotFound) if the project cannot be opened. Does not check that the song exists.
+/// Reads a project from a file; the song's path is relative to it. Throws as ParseProject does, and
+/// Error(kNotFound) if the project cannot be opened. Does not check that the song exists.
 Project ReadProject(const std::filesystem::path& path);
 
 /// Checks all but beats, controls, keys and dancers. Throws Error(kInvalidArgument) whose field is
 /// NAME:MEMBER, naming value and limit.
 void CheckProject(const Project& project, const std::string& name);
 
-/// The second that a project says for a frame: readable, and read as the same frame.
+/// The second that a project has for a frame: short, and read back as the same frame.
 double SecondsOf(int64_t frame, double fps);
 
 /// Writes a project, with its keys and dancers, so that each float and each frame stays the same

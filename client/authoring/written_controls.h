@@ -18,7 +18,7 @@
 namespace choreo::authoring {
 
 /// Parses a path file, JSON, as described in docs/song.md, with times up to an hour. A smooth curve
-/// leads through its points. `fps`: the model's. `counts`: those of the music, for times in counts.
+/// leads through its points. `fps`: the model's. `counts`: the music's, for times in counts.
 ///
 /// Throws Error(kInvalidArgument) whose field is NAME:points[i].MEMBER, naming value and limit.
 ControlRequest::RootPath ParsePathFile(std::string_view text, const std::string& name, double fps,
@@ -34,7 +34,7 @@ struct WrittenControl {
   bool IsGiven() const { return !sources.empty() || !project.is_null() || !reference.empty(); }
 };
 
-/// Reads a written control. Some controls have a form that is easier to write than their fields.
+/// Reads a written control. Each control may have a form that is easier to write than its fields.
 void ReadWritten(const WrittenControl& written, double fps, const Counts& counts,
                  ControlRequest::RootPath* path);
 void ReadWritten(const WrittenControl& written, double fps, const Counts& counts,
@@ -48,16 +48,16 @@ void ReadWritten(const WrittenControl& written, double /*fps*/, const Counts& /*
   ReadControlJson(ParseJson(ReadText(file, "control's file"), file), file, control);
 }
 
-/// All controls of a dance, as written. Errors name the place in a file, or a control as the API
-/// does.
+/// All controls of a dance, as written. Errors name the place in a file, or the control by its API
+/// name.
 class WrittenControls {
  public:
   /// The written control, by its name in kControls.
   WrittenControl& operator[](std::string_view control) { return controls_[std::string(control)]; }
 
-  /// As a project has the control of this row of kControls, or null.
+  /// The project's JSON for the control of this row of kControls, or null.
   const nlohmann::ordered_json& InProject(size_t row) const;
-  /// Adds the project's controls that the options do not give.
+  /// Adds the project's controls that are not written here.
   void Follow(const WrittenControls& project);
   /// The values of the option of this row of kControls.
   const std::vector<std::string>& SourcesOf(size_t row) const;
@@ -79,10 +79,10 @@ class WrittenControls {
         request);
     return request;
   }
-  /// Throws Error(kInvalidArgument) naming the first point of a control that begins after the end
-  /// of the dance, and so was written for another one. Checks only the controls given here.
+  /// Throws Error(kInvalidArgument) for a control that begins after the dance's end, naming its
+  /// first point: it was written for another dance. Checks only the controls written here.
   void RequireBegun(const ControlRequest& controls, const DanceLength& length) const;
-  /// Translates an error about sent controls so that it names the written ones. Returns other
+  /// Translates an error about sent controls to the places where they were written. Returns other
   /// errors unchanged.
   Error InTermsOf(const Error& error) const;
   /// The name, in errors, of a control's field such as "points[3]"; an empty field is the control

@@ -12,8 +12,8 @@ class BeatClock {
  public:
   void Hear(const client::Beat& beat);
 
-  /// Seconds between beats. None before three beats without a gap, and if the last beat was long
-  /// before `now`.
+  /// Seconds between beats. None until there are three beats without a gap, and if the last beat
+  /// was long before `now`.
   std::optional<double> Period(double now) const;
   double confidence() const { return beats_.empty() ? 0 : beats_.back().confidence; }
   /// The second of the first beat at or after `seconds`; `seconds` itself if there is no period.

@@ -16,11 +16,11 @@ namespace choreo::live {
 struct LiveBeatHint {
   BeatHint beats = {};
   std::optional<double> downbeat_s = {};  ///< second of the music at which a bar began
-  double later_s = 0;                     ///< seconds by which the beats are later than those found
+  double later_s = 0;                     ///< seconds by which beats come later than the found ones
 };
 
-/// Predicts the beats of live music: finds those of its last minutes as in a whole song
-/// (TrackBeats) and extrapolates them. Works on its own thread, so that Hear never waits.
+/// Predicts the beats of live music: finds the beats of its last minutes as in a whole song
+/// (TrackBeats), and extrapolates. Works on its own thread, so that Hear never waits.
 class BeatEar {
  public:
   /// How far ahead of the music beats are predicted, seconds: the length of a transition.

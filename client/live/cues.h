@@ -8,8 +8,8 @@
 /// Cues: a performer's requests during a live dance.
 namespace choreo::live {
 
-/// A request for a library pose, by name. An empty name takes back the latest pose that can still
-/// be taken back.
+/// A request for a library pose, by name. An empty name takes back the latest pose that still can
+/// be.
 struct Cue {
   std::string pose;
   std::optional<double> ahead_s = {};  ///< seconds from now; none: the dance's default

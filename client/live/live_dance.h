@@ -67,9 +67,9 @@ class LiveDance {
             LiveOptions options, LiveObserver observer);
   ~LiveDance();
 
-  /// Dances until the music ends or `go_on` returns false. Throws Error if the dance fails, or if
-  /// it is refused until the music is over; keeps the received frames. `midi`: a source of beats,
-  /// or null.
+  /// Dances until the music ends or `go_on` returns false. Throws Error if the dance fails, or is
+  /// refused until the music is over; keeps the received frames. `midi`: a source of beats, or
+  /// null.
   void Run(Sound& sound, std::span<const std::unique_ptr<Cues>> cues, MidiClock* midi = nullptr);
 
   const client::Header& header() const { return header_; }
@@ -81,7 +81,7 @@ class LiveDance {
   const std::optional<client::Report>& report() const { return report_; }
   /// The keys that the server reported as reached.
   const std::vector<client::KeyReached>& reached() const { return reached_; }
-  /// The keys that were danced, in order of time; for an interrupted dance, those reached. Throws
+  /// The danced keys, in order of time; of an interrupted dance, the reached ones. Throws
   /// Error(kInternal) if the server names a key that it was not sent.
   std::vector<client::KeyPose> DancedKeys() const;
 
@@ -114,7 +114,7 @@ class LiveDance {
   std::map<int64_t, std::string> keys_;  // by frame: ids of keys sent and not taken back
   std::vector<int64_t> requested_;       // their frames, in the order of requests
   int64_t granted_ = 0;
-  std::vector<client::KeyPose> sent_;  // including those taken back
+  std::vector<client::KeyPose> sent_;  // including keys taken back
 
   client::Header header_;
   Motion motion_;

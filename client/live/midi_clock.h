@@ -8,8 +8,8 @@
 
 namespace choreo::live {
 
-/// Predicts beats from a MIDI clock, such as that of a DJ program or a drum machine. A beat has 24
-/// ticks, of which the first follows Start. Not thread-safe.
+/// Predicts beats from the MIDI clock of a DJ program, a drum machine or the like. A beat has 24
+/// ticks; the first beat's first tick follows Start. Not thread-safe.
 class MidiClock {
  public:
   /// `device`: a source of raw MIDI, such as /dev/snd/midiC1D0, or a named pipe. Throws

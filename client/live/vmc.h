@@ -15,7 +15,7 @@ namespace choreo::live {
 /// mirrored. The skeleton's rest pose counts as VRM's T-pose. Not thread-safe.
 class VmcSender {
  public:
-  /// `address`: HOST:PORT. With UDP, it is unknown whether anybody listens. Throws
+  /// `address`: HOST:PORT. UDP does not tell whether anybody listens. Throws
   /// Error(kInvalidArgument), whose field is --vmc, for a malformed address or an unknown host, and
   /// as Skeleton::RequireRoles does for a body without limbs.
   VmcSender(const std::string& address, const Skeleton& skeleton);

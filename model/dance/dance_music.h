@@ -134,8 +134,8 @@ class DanceMusic {
 /// The times of beats, in seconds.
 std::vector<double> SecondsOf(std::span<const Beat> beats);
 
-/// Selects from the music's beats (seconds, ascending) those in frames [first_frame, first_frame +
-/// frames), one before and one after. Returns them in frames from the first, as in
+/// Selects the beats in frames [first_frame, first_frame + frames), one before and one after.
+/// `seconds`: the music's beats, ascending. Returns them in frames from the first, as in
 /// TransitionSpec::beats.
 std::vector<double> BeatsAround(std::span<const double> seconds, double fps, int64_t first_frame,
                                 int frames);

@@ -92,7 +92,7 @@ class MotionPrior {
   const Eigen::MatrixXd& covariance() const { return covariance_; }
   const VariancePowers& powers() const { return powers_; }
   /// The factor of each frame's noise, [dimensions, frames], which keeps a lively dancer lively.
-  /// `surprise`: the known displacements' squares over those that the covariance expects (1 on
+  /// `surprise`: the known displacements' squares over their expectation by the covariance (1 on
   /// average); `levels` [kBodyParts, frames]: EnergyLevel of each body part, NaN if unknown.
   Eigen::MatrixXd Scales(double surprise, const Eigen::MatrixXd& levels) const;
   /// The networks' unit of velocities, [dimensions]: their standard deviation.

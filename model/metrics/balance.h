@@ -23,8 +23,8 @@ std::vector<Balance> BalanceOf(const Skeleton& skeleton, double fps, const Joint
 
 struct WeightFigures {
   double hover_share = 0;  ///< share of frames with both feet more than 5 cm above the floor
-  /// Median vertical acceleration of the centre of mass in those frames, m/s^2: -9.81 for a jump, 0
-  /// for a floating body; NaN without such frames.
+  /// Median vertical acceleration of the centre of mass in hover_share's frames, m/s^2: -9.81 for a
+  /// jump, 0 for a floating body; NaN without such frames.
   double hover_acceleration = 0;
   /// The longest time without any joint within 15 cm of the floor, seconds. Does not count flights,
   /// in which the centre of mass accelerates downwards by more than kThrown on average.

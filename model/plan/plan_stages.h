@@ -49,8 +49,8 @@ void TimeToBeats(const PlanContext& context, std::vector<Pose>* plan);
 std::vector<double> TimesOnBeats(const PlanContext& context, std::span<const double> speeds,
                                  std::span<const double> paces = {});
 
-/// Replaces the poses of the plan's frames from `first` on by those at other times, in [-1, frames
-/// - 1]; -1 is the history's last pose. A root path keeps its positions and heights.
+/// Replaces the poses of the plan's frames from `first` on by the plan's poses at `times`, in [-1,
+/// frames - 1]; -1 is the history's last pose. A root path keeps its positions and heights.
 void Retime(const PlanContext& context, int first, std::span<const double> times,
             std::vector<Pose>* plan);
 

@@ -61,7 +61,7 @@ struct ModelInfo {
   std::vector<VelocityReference> velocity_references = {};
   std::vector<std::string> styles = {};  ///< available for requests
   bool plan_stages = false;  ///< whether its plans pass kPlanStages (plan/plan_stages.h)
-  PlanOptions plan = {};     ///< settings of those stages and of footwork
+  PlanOptions plan = {};     ///< settings of kPlanStages and of footwork
 
   bool Takes(std::string_view control) const {
     return std::ranges::find(controls, control) != controls.end();

@@ -11,7 +11,7 @@ namespace choreo {
 
 /// Accepts connections and passes them on. Replaces gRPC's listener, which stops accepting for good
 /// once the process has run out of descriptors. This one keeps some descriptors in reserve. When
-/// only those are left, it closes new connections at once, so that clients go elsewhere, until more
+/// only these are left, it closes new connections at once, so that clients go elsewhere, until more
 /// are free. Thread-safe.
 class Listener {
  public:

@@ -22,15 +22,15 @@ struct PoseRecipe {
   /// "right_hand=0.3,1.6,0.2": joints moved to places, metres (fit/inverse_kinematics.h). The
   /// height of foot joints is the sole's: 0 is the floor.
   std::vector<std::string> reach;
-  bool keeps_hands = false;         ///< and head where they are when the pelvis is moved
+  bool keeps_hands = false;         ///< and the head in place when the pelvis moves
   bool mirror = false;              ///< swaps left and right
   authoring::Placing placing = {};  ///< over the floor; a library pose is around the origin
 };
 
-/// Makes the pose, held as that of `from` is. Its mask is that of `from` plus the joints that were
-/// set. Throws Error(kInvalidArgument) whose field is the option as given, "--set left_elbow=200",
-/// naming joint, value and limit; for a target out of reach it states the remaining distance.
-/// Throws as ReadPose does for `from`.
+/// Makes the pose, held like `from`'s. Its mask is `from`'s plus the joints that were set. Throws
+/// Error(kInvalidArgument) whose field is the option as given, "--set left_elbow=200", naming
+/// joint, value and limit; for a target out of reach it states the remaining distance. Throws as
+/// ReadPose does for `from`.
 authoring::NamedPose MakePose(const PoseRecipe& recipe, const Skeleton& skeleton);
 
 }  // namespace choreo::cli

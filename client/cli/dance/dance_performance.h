@@ -62,12 +62,11 @@ struct Performance {
   WrittenDance written;
 };
 
-/// Checks the key files, for SMPL's skeleton, before a server is started. Throws what Plan would
-/// throw for them.
+/// Checks the key files, for SMPL's skeleton, before a server starts. Throws what Plan would throw.
 void CheckKeyFiles(const DanceOptions& options, const std::optional<authoring::Music>& music);
 
-/// Plans the dance that the options describe, and prints warnings about its keys. `music`: that of
-/// the options' song. Errors name the option, or the place in a file.
+/// Plans the dance that the options describe, and prints warnings about its keys. `music`: the
+/// options' song. Errors name the option, or the place in a file.
 PlannedDance Plan(const DanceOptions& options, const std::optional<authoring::Music>& music,
                   const Connection& connection);
 

@@ -6,8 +6,8 @@
 
 namespace choreo::cli {
 
-/// Examines the received part of a live dance. `keys`: those known from the beginning. `settings`:
-/// the request; sets its beats to those that were danced to, unless its song's file gives them.
+/// Examines the received part of a live dance. `keys`: known from the beginning. `settings`: the
+/// request; its beats become the beats danced to, unless its song's file has beats.
 WrittenDance Examine(const live::LiveDance& live, const authoring::DanceKeys& keys,
                      DanceSettings settings);
 

@@ -8,9 +8,8 @@
 #include "client/cli/dance/dance_performance.h"
 
 /// Dances for several dancers on one stage. Generates each different dance once, from the origin,
-/// and mirrors, delays, turns and moves it for each dancer; none of this requires generating it
-/// again. If bodies would come too near each other, widens the whole formation about its middle,
-/// and prints a note.
+/// then mirrors, delays, turns and moves it for each dancer. If bodies would come too near each
+/// other, widens the whole formation about its middle, and prints a note.
 namespace choreo::cli {
 
 /// The output files: FILE.ID.npz for each dancer, or one .glb with all of them.

@@ -10,8 +10,8 @@
 
 namespace choreo::cli {
 
-/// `--vmc` for dances that are generated faster than real time: streams a dance in real time,
-/// starting at its first frame.
+/// `--vmc` for dances generated faster than real time: streams a dance in real time from its first
+/// frame on.
 class VmcShow {
  public:
   /// Throws as VmcSender does.

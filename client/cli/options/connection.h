@@ -28,8 +28,8 @@ struct ServerOptions {
 };
 
 /// A connection to the named server or, without addresses, to a server of our own that runs for the
-/// lifetime of this object. To save loading others, our own server serves only `model` ("": the
-/// default one); none: the default models.
+/// lifetime of this object. Our own server loads and serves only `model` ("": the default one);
+/// none: the default models.
 class Connection {
  public:
   explicit Connection(const ServerOptions& options, const std::optional<std::string>& model = {});

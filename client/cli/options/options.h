@@ -39,7 +39,7 @@ void CheckSongStart(const CLI::App& command, const std::string& song);
 /// Adds `--allow-bends`.
 void AddAllowBends(CLI::App& command, bool& allowed);
 
-/// Adds `--hit`. `whose`: its subject in the help, "the poses of --key are" or "the end is".
+/// Adds `--hit`. `whose`: the subject of its help, "the poses of --key are" or "the end is".
 void AddHit(CLI::App& command, std::optional<double>& hit, const std::string& whose);
 
 /// Adds `--hands`, one of kHandPoseNames. `what`: the beginning of its help, before the choice.
@@ -53,7 +53,7 @@ void AddManner(CLI::App& command, DanceManner* manner);
 
 /// Adds `--model`, one of the server's models.
 void AddModel(CLI::App& command, std::string& model);
-/// The end of the help of all options that only choose among possible dances.
+/// The last sentence of the help of options that only choose among possible dances.
 inline const std::string kOfChance = "No effect if `choreo info` calls the model deterministic.";
 /// Prints a note if the requested style does not show in this model's dances.
 void NoteStyle(const client::ModelDescription& model, const std::string& style);
@@ -68,7 +68,7 @@ CLI::Option* AddSeed(CLI::App& command, std::optional<uint64_t>& seed, const std
 /// Replaces the library's or server's name of a setting in an error with its option.
 Error AsTyped(const Error& error);
 
-/// Hides an option that a command refuses, saying why, from its help and other options' help.
+/// Hides an option that a command refuses (and says why) from its help and other options' help.
 void Hide(CLI::App& command, const std::string& name);
 
 /// Adds an option that may be repeated. Each occurrence takes one value, so that another argument,

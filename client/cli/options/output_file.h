@@ -12,10 +12,10 @@ struct NamedFile {
   std::filesystem::path path;
 };
 
-/// Checks outputs before the work. Refuses those that cannot be written (no such folder, a folder
-/// itself, no permission), and those that would overwrite each other or an input. Does not change
-/// any file. Throws Error(kNotFound) or Error(kInvalidArgument) whose field is the option, naming
-/// the path and the reason, or the other option.
+/// Checks outputs before the work. Refuses files that cannot be written (no such folder, a folder
+/// itself, no permission) or would overwrite each other or an input. Changes no file. Throws
+/// Error(kNotFound) or Error(kInvalidArgument) whose field is the option, naming the path and the
+/// reason, or the other option.
 void RequireOutputs(const std::vector<NamedFile>& outputs, const std::vector<NamedFile>& inputs);
 
 /// Refuses a file without this extension (".png", in upper or lower case). The error names both.

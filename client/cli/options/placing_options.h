@@ -9,7 +9,7 @@
 
 namespace choreo::cli {
 
-/// Parses "0.3,1.6,0.2". Throws Error(kInvalidArgument, field) for what is no number.
+/// Parses "0.3,1.6,0.2". Throws Error(kInvalidArgument, field) for anything but numbers.
 std::vector<double> ParseNumbers(std::string_view text, const std::string& field);
 
 /// Adds `--place` and `--facing`. `whose`: what is placed, "the poses of --key".

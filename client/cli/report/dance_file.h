@@ -17,7 +17,7 @@ struct DanceFile {
 /// and Error(kInvalidArgument) whose field is PATH:contacts.
 DanceFile ReadDance(const std::filesystem::path& path);
 
-/// Reads a dance on this skeleton. Refuses other bones, because retargeting would change the dance.
+/// Reads a dance on this skeleton. Refuses other bones: retargeting would change the dance.
 client::FinishedDance ReadDance(const std::filesystem::path& path, const Skeleton& skeleton);
 
 }  // namespace choreo::cli

@@ -20,7 +20,7 @@ namespace choreo::cli {
 
 /// A key in a dance's report, as it was danced. Figures that the report lacks are NaN.
 struct ReportKey : client::KeyReached {
-  /// The key in the written file. If the file's rate is not the model's, a key may be between the
+  /// The key in the written file. At another rate than the model's, a key may lie between the
   /// file's frames: the dance reaches it, but no frame shows it.
   struct InFile {
     int64_t frame = 0;     ///< the nearest to the key's time
@@ -52,17 +52,16 @@ struct ReportFile {
 /// one. Reports of earlier versions have fewer members.
 ReportFile ReadReport(const std::filesystem::path& path);
 
-/// Prints a note of where a dance differs from the sketch in its report. Throws
-/// Error(kInvalidArgument), whose field is the path, for the report of another dance: one of which
-/// most of the sketch differs.
+/// Prints a note of where a dance differs from its report's sketch. Throws Error(kInvalidArgument),
+/// whose field is the path, if most of the sketch differs: it is another dance's report.
 void CheckSketch(const std::filesystem::path& path, const ReportFile& report, const Motion& file);
 
-/// Moves keys to later frames, and to later frames `in_file`; without that, they no longer say
-/// where they are in the file.
+/// Moves keys `frames` later, and `in_file` frames later in the file; without `in_file` they lose
+/// their places in the file.
 ReportKeys Moved(ReportKeys keys, int64_t frames, std::optional<int64_t> in_file = {});
 
-/// Finds the frames, in order, of the key called `id` and of the keys that hold its pose. `id` may
-/// be ID@TIME if several keys have the same id: the nearest one, at most half a count or kTooNear
+/// Finds the frames, in order, of the key called `id` and of the keys that hold its pose. ID@TIME
+/// tells keys with the same id apart: it means the nearest one, at most half a count or kTooNear
 /// (key_file.h) away. Throws Error(kInvalidArgument, field) unless there is exactly one, and for a
 /// TIME in counts that `counts` lack.
 std::vector<int64_t> FindKey(const ReportKeys& keys, const std::string& id, double fps,

@@ -22,16 +22,17 @@ struct WrittenDance : ReportFile {
   std::optional<double> beat_hit_chance = {};
 };
 
-/// Examines the motion at every key. Leaves empty what it is not given: the request, the warnings,
-/// and which keys only hold another one's pose. Throws Error(kInternal), whose field is the key's
-/// id, for a key that is missing in the figures.
+/// Examines the motion at every key. Does not fill in the request, the warnings, and which keys
+/// only hold another's pose. Throws Error(kInternal), whose field is the key's id, for a key that
+/// is missing in the figures.
 WrittenDance Examine(const client::Header& header, const client::Report& figures,
                      const Motion& motion, const std::vector<client::KeyPose>& keys);
 
 /// Marks the keys that only hold another one's pose.
 void MarkHolds(const authoring::DanceKeys& keys, WrittenDance* dance);
 
-/// The share of `frames`, at `fps`, within two frames of a beat (seconds); empty without beats.
+/// The share of `frames`, at `fps`, within two frames of one of `beats` (seconds); empty without
+/// beats.
 std::optional<double> BeatHitChance(const std::vector<double>& beats, int64_t frames, double fps);
 
 /// Checks that every key is reached within 1 mm and 0.1 degrees: in the file if a frame is at the

@@ -81,8 +81,8 @@ class BarPointer {
   void Reserve(size_t frames) { back_.reserve(frames * from_.size()); }
   void Add(const Onset& onset);
 
-  /// The beats of the best path to the last frame, ascending, without those before the first frame.
-  /// Needs 1 kB of memory per frame.
+  /// The beats of the best path to the last frame, ascending, from the first frame on. Needs 1 kB
+  /// of memory per frame.
   std::vector<Step> Path() const;
 
  private:

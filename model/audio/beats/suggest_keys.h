@@ -17,8 +17,8 @@ inline constexpr double kMinKeyInterval = 1.2;
 /// The earliest time of suggested keys, seconds. A dancer can't reach a pose earlier at ease.
 inline constexpr double kFirstKey = 1;
 
-/// What begins at a beat; each value includes those before it. An eight is two bars of four or of
-/// three beats, counted from the first bar and again from passages and short bars.
+/// What begins at a beat; each value includes the ones before it. An eight is two bars of four or
+/// of three beats, counted from the first bar and again from passages and short bars.
 enum class Phrase { kBeat, kBar, kEight, kPassage };
 
 /// A beat that suits a key pose.
