@@ -4,8 +4,8 @@
 #include "client/authoring/key_file.h"
 #include "client/cli/commands/commands.h"
 #include "client/cli/edit/edit_markers.h"
-#include "client/cli/edit/edit_session.h"
 #include "client/cli/edit/edit_whole.h"
+#include "client/cli/edit/edits.h"
 #include "client/cli/options/authoring_options.h"
 #include "client/cli/options/options.h"
 #include "client/cli/options/output_file.h"
@@ -144,29 +144,32 @@ void Run(const EditOptions& options) {
   CheckOptions(options);
   if (EditsWhole(options)) return EditWhole(options);
   const Connection connection(options.server, options.model);
-  EditSession session(options, connection);
+  WorkingDance dance(options, connection);
+  const auto second = [&](const char* option, const std::string& time) {
+    return dance.times().Second(option, time);
+  };
+  CheckKeys(options, dance.times());
   try {
-    for (const std::string& id : options.removed) session.RemoveKey(id);
+    for (const std::string& id : options.removed) RemoveKey(id, &dance);
     for (const auto& [id, time] : options.moves)
-      session.MoveKey(id, session.Second("--move", time));
+      MoveKey(options, id, second("--move", time), &dance);
     for (const auto& [from, until, times] : options.stretches)
-      session.Stretch(session.Second("--stretch", from), session.Second("--stretch", until), times);
+      StretchPhrase(second("--stretch", from), second("--stretch", until), times, &dance);
     for (const auto& [from, until, later] : options.repeats)
-      session.Repeat(session.Second("--repeat", from), session.Second("--repeat", until), later);
+      RepeatPhrase(second("--repeat", from), second("--repeat", until), later, &dance);
     for (const auto& [from, until] : options.mirrored)
-      session.MirrorPhrase(session.Second("--mirror-phrase", from),
-                           session.Second("--mirror-phrase", until));
+      MirrorPhrase(second("--mirror-phrase", from), second("--mirror-phrase", until), &dance);
     for (size_t i = 0; i < options.keys.size(); ++i)
-      session.SetKey(options.keys[i], session.Second("--at", options.at[i]));
-    if (!options.end.empty()) session.End(options.end);
+      SetKey(options, options.keys[i], second("--at", options.at[i]), &dance);
+    if (!options.end.empty()) EndInPose(options, options.end, &dance);
     for (const auto& [from, until] : options.retakes)
-      session.Retake(session.Second("--retake", from), session.Second("--retake", until));
-    if (!EditsKeys(options)) session.DanceOtherwise();
-    if (options.loop) session.CloseLoop();
+      Retake(second("--retake", from), second("--retake", until), &dance);
+    if (!EditsKeys(options)) DanceOtherwise(options, &dance);
+    if (options.loop) CloseLoop(&dance);
   } catch (const Error& error) {
     throw options.controls.InTermsOf(error);
   }
-  session.Write();
+  dance.Write();
 }
 
 }  // namespace

@@ -1,9 +1,8 @@
-// Generates another take of a part of a dance.
-#include <algorithm>
+// Generates frames again, with the keys where they are.
 #include <iostream>
+#include <string>
 
-#include "client/cli/edit/edit_session.h"
-#include "client/cli/report/report.h"
+#include "client/cli/edit/edits.h"
 #include "model/core/limits.h"
 #include "model/core/rounded.h"
 
@@ -12,86 +11,80 @@ namespace {
 
 constexpr double kLeastTake = 0.5;  // seconds in which people change pose and come back
 
+/// Writes the beats of the options, if any, into the report.
+void RenameBeats(const EditOptions& options, const client::EditOptions& changed,
+                 DanceSettings* settings) {
+  if (options.beats == authoring::BeatOptions()) return;
+  settings->beats.clear();
+  settings->downbeats.clear();
+  if (options.beats == authoring::BeatOptions{.beats = "auto"}) return;  // as are found in the song
+  settings->beats = changed.music_beats;
+  settings->downbeats = changed.music_downbeats;
+}
+
 }  // namespace
 
-void EditSession::Retake(double from_s, double until_s) {
-  const int64_t first = FrameInDance("--retake", from_s);
+void Retake(double from_s, double until_s, WorkingDance* dance) {
+  const DanceTimes& times = dance->times();
+  const int64_t first = times.FrameInDance("--retake", from_s);
   const int64_t from = first == 0 ? -1 : first;  // nothing is before the beginning
-  const int64_t until = FrameInDance("--retake", until_s);
-  const int64_t to = until < frames_ - 1 ? until : frames_;
+  const int64_t until = times.FrameInDance("--retake", until_s);
+  const int64_t to = until < times.frames - 1 ? until : times.frames;
   if (to - from <= kMinKeyDistance) {
     throw InvalidArgument("--retake", Rounded(from_s) + " s to " + Rounded(until_s) +
                                           " s leaves no room in the dance: at least " +
                                           std::to_string(kMinKeyDistance) +
                                           " frames between these two are danced anew");
   }
-  if (until - first < Frame(kLeastTake)) {
-    std::cerr << "note: " << Rounded(Seconds(until - first)) << " s are danced anew: in less than "
-              << kLeastTake << " s nothing much can change\n";
+  if (until - first < times.Frame(kLeastTake)) {
+    std::cerr << "note: " << Rounded(times.Seconds(until - first))
+              << " s are danced anew: in less than " << kLeastTake
+              << " s nothing much can change\n";
   }
-  DanceAnew("take of " + Rounded(Seconds(first)) + " to " + Rounded(Seconds(to)) + " s", from, to);
-  known_.settings.seed = edit_.seed;  // the next take has the next seed
+  dance->DanceAnew(
+      "take of " + Rounded(times.Seconds(first)) + " to " + Rounded(times.Seconds(to)) + " s", from,
+      to);
+  dance->report().settings().seed = dance->settings().seed;  // the next take has the next seed
 }
 
-void EditSession::RenameBeats() {
-  if (options_.beats == authoring::BeatOptions()) return;
-  DanceSettings& settings = known_.settings;
-  settings.beats.clear();
-  settings.downbeats.clear();
-  if (options_.beats == authoring::BeatOptions{.beats = "auto"})
-    return;  // as are found in the song
-  settings.beats = edit_.music_beats;
-  settings.downbeats = edit_.music_downbeats;
-}
-
-void EditSession::DanceOtherwise() {
-  RenameBeats();
-  if (options_.changed == DanceChange::kCounts) {
+void DanceOtherwise(const EditOptions& options, WorkingDance* dance) {
+  const client::EditOptions& changed = dance->settings();
+  DanceSettings& settings = dance->report().settings();
+  RenameBeats(options, changed, &settings);
+  if (options.changed == DanceChange::kCounts) {
     std::cerr << "note: --downbeat alone renames counts; all frames and keys stay\n";
     return;
   }
-  if (options_.beats != authoring::BeatOptions()) {
+  if (options.beats != authoring::BeatOptions()) {
     std::cerr << "note: to other beats all frames are danced anew, through the same keys at the "
                  "same seconds\n";
   }
-  const auto& path = edit_.controls.root_path;
-  const bool begins_later = options_.changed == DanceChange::kPath && path->frames.front() > 0;
-  DanceAnew("danced anew", begins_later ? path->frames.front() : -1, frames_);
-  DanceSettings& settings = known_.settings;
-  static_cast<DanceManner&>(settings) = edit_;
-  settings.seed = edit_.seed;
+  const auto& path = changed.controls.root_path;
+  const bool begins_later = options.changed == DanceChange::kPath && path->frames.front() > 0;
+  dance->DanceAnew("danced anew", begins_later ? path->frames.front() : -1, dance->times().frames);
+  static_cast<DanceManner&>(settings) = changed;
+  settings.seed = changed.seed;
   ControlRequest::VisitControls(
-      [&](size_t row, auto& known, const auto& changed) {
-        if (options_.controls.IsOption(row)) known = changed;
+      [&](size_t row, auto& known, const auto& control) {
+        if (options.controls.IsOption(row)) known = control;
       },
-      settings.controls, edit_.controls);
+      settings.controls, changed.controls);
 }
 
-void EditSession::DanceAnew(const std::string& what, int64_t from, int64_t to) {
-  client::Gap gap{.from = from, .to = to, .keys = KeysAsDanced(from + 1, to)};
-  if (const auto& path = edit_.controls.root_path; path && options_.controls.IsOption(kRootPath)) {
-    // The new path determines the places of the keys.
-    for (client::KeyPose& key : gap.keys)
-      if (*key.frame >= path->frames.front() && *key.frame <= path->frames.back())
-        key.mask.root_position = false;
+void CloseLoop(WorkingDance* dance) {
+  EditedReport& report = dance->report();
+  const DanceTimes& times = dance->times();
+  const EditReach::Loop loop = dance->reach().LoopOf(report.keys(), times.frames);
+  for (auto key = report.keys().upper_bound(loop.from); key != report.keys().end(); ++key) {
+    std::cerr << "warning: key " << key->second.id << " at " << times.format.Of(key->first)
+              << " makes way for the loop\n";
   }
-  if (keys_.contains(to)) {
-    gap.to_id = IdAt(to);
-    gap.to_hit = keys_.at(to).hit;
+  report.Forget(loop.from + 1, times.frames);
+  if (loop.added > 0) {
+    std::cerr << "note: the pose that is held at the end stays; the way back makes the dance "
+              << Rounded(times.Seconds(loop.added)) << " s longer\n";
   }
-  const ReportKeys before(keys_.upper_bound(from), keys_.lower_bound(to));
-  Refresh(from, to);
-  FollowPath(from, to);
-  const bool is_all = from < 0 && to == frames_;
-  Apply(is_all ? client::DanceAllAnew(client_, dance_, edit_, gap.keys)
-               : client::DanceAnew(client_, dance_, edit_, gap),
-        what);
-  for (const auto& [frame, key] : before) {
-    ReportKey& anew = keys_.at(frame);
-    anew.holds = key.holds;
-    anew.hit = key.hit;
-    anew.hands = key.hands;
-  }
+  dance->LeadBack(loop);
 }
 
 }  // namespace choreo::cli

@@ -5,7 +5,7 @@ import type { Key } from './project';
 const end = ({ frame, hold }: Key) => frame + hold;
 
 /// The frames before and after the part to dance anew when keys at `frames` change: the
-/// neighbouring keys, if near, as in the program (client/cli/edit/edit_session.cpp). -1 and `count` mean
+/// neighbouring keys, if near, as in the program (client/cli/edit/edited_report.cpp). -1 and `count` mean
 /// the beginning and the end.
 export function reachOf(before: Key[], after: Key[], frames: number[], count: number, fps: number): [number, number] {
   const first = Math.min(...frames);
