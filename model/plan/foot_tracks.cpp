@@ -13,6 +13,7 @@ namespace choreo {
 namespace {
 
 constexpr double kStillSpeed = 0.3;    // m/s: a low foot slower than this stands
+constexpr double kLandingShare = 0.5;  // a low foot slower than this share of its last speed lands
 constexpr double kSmoothFrames = 1.5;  // smoothing of the centre of mass
 constexpr int kSmoothReach = 4;
 
@@ -26,6 +27,19 @@ Eigen::Vector2d ZeroMomentPoint(const std::vector<Eigen::Vector3d>& centres, int
       (centre(frame + 1) - 2 * at + centre(frame - 1)) * (fps * fps);
   const double lever = MomentLever(at.y(), acceleration.y());
   return {at.x() - lever * acceleration.x(), at.z() - lever * acceleration.z()};
+}
+
+// Whether a joint near the floor stands there after the history: it hardly moves, or it has just
+// landed, as toes do that a step brings to a key's place in the key's frame.
+bool Rests(const FootworkContext& context, int joint) {
+  const auto at = [&](size_t back) -> Eigen::Vector3d {
+    const auto& history = context.history;
+    const size_t last = history.size() - 1;
+    return JointPositions(context.skeleton, history[last - std::min(back, last)]).col(joint);
+  };
+  const double speed = (at(0) - at(1)).norm() * context.fps;
+  const double before = (at(1) - at(2)).norm() * context.fps;
+  return speed < kStillSpeed || speed < kLandingShare * before;
 }
 
 FootTrack Track(const FootworkContext& context, const Leg& leg, double toes_rest, double ankle_rest,
@@ -47,13 +61,10 @@ FootTrack Track(const FootworkContext& context, const Leg& leg, double toes_rest
   }
   const auto& history = context.history;
   const Eigen::Matrix3Xd before = JointPositions(context.skeleton, history.back());
-  const Eigen::Matrix3Xd earlier = JointPositions(
-      context.skeleton, history[history.size() - std::min<size_t>(2, history.size())]);
   track.before = before.col(leg.toes);
   track.height_before = track.fall_before = height(before);
   track.fall_after = track.heights.back();
-  const double speed = (track.before - earlier.col(leg.toes)).norm() * context.fps;
-  track.stood = track.before.y() - toes_rest < kUpHeight && speed < kStillSpeed;
+  track.stood = track.before.y() - toes_rest < kUpHeight && Rests(context, leg.toes);
   if (context.keyed) {
     const bool low = track.toes.back().y() - toes_rest < kUpHeight;
     track.end = low ? FootTrack::End::kStands : FootTrack::End::kInAir;

@@ -62,6 +62,22 @@ TEST(StandOnFeet, LeavesAStandingBody) {
   }
 }
 
+// A step brings toes to a key's place in the key's frame. As they still moved, they did not count
+// as standing, and left along the floor at 6 m/s.
+TEST(StandOnFeet, FeetThatHaveJustLandedStand) {
+  const auto first_contacts = [](double earlier, double later) {
+    std::vector<Pose> history(8, At({0, 0, 0}));
+    history.push_back(At({0, 0, earlier}));
+    history.push_back(At({0, 0, earlier + later}));
+    FootworkContext context = Context();
+    context.history = history;
+    std::vector<Pose> plan(kFrames, At({0, 0, earlier + later}));
+    return StandOnFeet(context, &plan).contacts.front();
+  };
+  EXPECT_EQ(first_contacts(0.1, 0.02), (Contacts{1, 1, 1, 1}));
+  EXPECT_EQ(first_contacts(0.1, 0.1), (Contacts{0, 0, 0, 0}));  // slide on
+}
+
 // Keys of one pose a fifth of a second apart: feet that settled on the floor between them, and a
 // pelvis that balanced, went there and back five times a second.
 TEST(StandOnFeet, LeavesAHeldPose) {
