@@ -207,14 +207,17 @@ void Project::SetBeats(std::vector<double> times, std::vector<int> counted, int 
   CheckBeats(times, name + ":beats");
   if (counted.size() != times.size())
     throw InvalidArgument(name + ":beats", "and their counts are not equally many");
+  std::vector<double> bars, eights;
+  for (size_t i = 0; i < times.size(); ++i) {
+    check(counted[i], name + ":beats[" + std::to_string(i) + "]");
+    if ((counted[i] - 1) % in_bar == 0) bars.push_back(times[i]);
+    if (counted[i] == 1) eights.push_back(times[i]);
+  }
   beats = std::move(times);
+  downbeats = std::move(bars);
+  ones = std::move(eights);
   counts = std::move(counted);
   bar = in_bar;
-  for (size_t i = 0; i < beats.size(); ++i) {
-    check(counts[i], name + ":beats[" + std::to_string(i) + "]");
-    if ((counts[i] - 1) % bar == 0) downbeats.push_back(beats[i]);
-    if (counts[i] == 1) ones.push_back(beats[i]);
-  }
 }
 
 void CheckProject(const Project& project, const std::string& name) {

@@ -44,7 +44,7 @@ struct Project : DanceManner {
 
   /// Sets the song's beats and their counts, which may run over several bars, and finds the beats
   /// that begin a bar or an eight. Throws Error(kInvalidArgument) whose field begins with
-  /// NAME:beats or NAME:bar.
+  /// NAME:beats or NAME:bar, and then changes nothing.
   void SetBeats(std::vector<double> times, std::vector<int> counted, int in_bar,
                 const std::string& name);
 };

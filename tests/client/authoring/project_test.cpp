@@ -4,14 +4,41 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "client/authoring/project_file.h"
 #include "tests/client/command_fixture.h"
 #include "tests/client/test_music.h"
+#include "tests/support/expect_error.h"
 #include "tests/support/music_files.h"
 
 namespace choreo::project_test {
 
 using nlohmann::json;
+using testing::ElementsAre;
 using testing::HasSubstr;
+
+TEST(ProjectBeats, ReplaceEarlierOnes) {
+  authoring::Project project;
+  project.SetBeats({1, 2, 3}, {1, 4, 5}, 4, "p");
+  project.SetBeats({10, 11, 12, 13}, {1, 3, 5, 1}, 2, "p");
+  EXPECT_THAT(project.beats, ElementsAre(10, 11, 12, 13));
+  EXPECT_THAT(project.counts, ElementsAre(1, 3, 5, 1));
+  EXPECT_THAT(project.downbeats, ElementsAre(10, 11, 12, 13));
+  EXPECT_THAT(project.ones, ElementsAre(10, 13));
+  EXPECT_EQ(project.bar, 2);
+}
+
+TEST(ProjectBeats, StayAsTheyAreIfTheNewOnesAreRefused) {
+  authoring::Project project;
+  project.SetBeats({1, 2, 3}, {1, 4, 5}, 4, "p");
+  ExpectError(ErrorCode::kInvalidArgument, "p:beats[1]", [&] {
+    project.SetBeats({10, 11}, {1, 17}, 2, "p");
+  });
+  EXPECT_THAT(project.beats, ElementsAre(1, 2, 3));
+  EXPECT_THAT(project.counts, ElementsAre(1, 4, 5));
+  EXPECT_THAT(project.downbeats, ElementsAre(1, 3));
+  EXPECT_THAT(project.ones, ElementsAre(1));
+  EXPECT_EQ(project.bar, 4);
+}
 
 /// `choreo dance --project`, with what the studio saves.
 class ProjectTest : public testing::Test {
