@@ -130,10 +130,10 @@ Slices<> TransitionRun::Dance(Sampler& sampler) {
   BestTake<ProcessedPlan> best;
   const uint32_t candidate = spec_->candidate;
   SpareFrames spare = SpareFrames::Of(spec_->frames);
-  while (best.Another(spec_->frames, &spare)) {
+  while (best.WantsAnother() && spare.Spend(best.takes(), spec_->frames)) {
     spec_.SetTake(CandidateOfTake(candidate, kTransitionTake * best.takes()), spare.left());
     ProcessedPlan processed = co_await DanceOnce(sampler);
-    spare.Spend(processed.plan.resampled);
+    spare.Charge(processed.plan.resampled);
     const double excess = ExcessOf(processed.plan.poses);
     best.Add(std::move(processed), excess);
   }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <utility>
 
@@ -30,12 +31,16 @@ class SpareFrames {
   static SpareFrames Of(int frames) { return SpareFrames((kMaxTakes - 1) * frames); }
 
   int left() const { return left_; }
-  /// Takes this many frames if they are left.
-  bool Spend(int frames) {
-    if (frames > left_) return false;
-    left_ -= frames;
+  /// Spends what sampling number `number` of these frames costs, if that is left. The first
+  /// sampling, number 0, costs nothing.
+  [[nodiscard]] bool Spend(int number, int frames) {
+    const int cost = number == 0 ? 0 : frames;
+    if (cost > left_) return false;
+    left_ -= cost;
     return true;
   }
+  /// Takes frames that have been sampled already, down to none left.
+  void Charge(int frames) { left_ = std::max(0, left_ - frames); }
 
  private:
   int left_;
@@ -47,11 +52,9 @@ class BestTake {
  public:
   /// The number of takes so far, which is the next one's number.
   int takes() const { return takes_; }
-  /// Whether to sample another take of `frames` frames: no take is within the limits so far, and
-  /// takes and spare frames are left. Spends the frames of all takes but the first.
-  bool Another(int frames, SpareFrames* spare) const {
-    return takes_ == 0 || (excess_ > 1 && takes_ < kMaxTakes && spare->Spend(frames));
-  }
+  /// Whether another take is worth its frames: none is within the limits so far, and takes are
+  /// left.
+  bool WantsAnother() const { return takes_ == 0 || (excess_ > 1 && takes_ < kMaxTakes); }
   /// `excess`: the take's largest ratio to a limit of what dancers do; at most 1 is within it.
   void Add(Motion motion, double excess) {
     if (takes_++ > 0 && !(excess < excess_)) return;
