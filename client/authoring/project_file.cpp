@@ -33,20 +33,11 @@ struct SettingReader {
   const json& file;
   const std::string& name;
 
-  void operator()(const char* member, std::string& text) const { text = Text(file, name, member); }
-  void operator()(const char* member, std::optional<double>& share) const {
-    share = NumberIn(file, name, member);
+  void operator()(const SettingRow& row, std::string& text) const {
+    text = Text(file, name, row.name);
   }
-};
-
-/// Throws unless a stated setting is a share.
-struct SettingCheck {
-  const std::string& name;
-
-  void operator()(const char*, const std::string&) const {}
-  void operator()(const char* member, const std::optional<double>& share) const {
-    if (share && !(*share >= 0 && *share <= 1))
-      throw InvalidArgument(name + ":" + member, InFull(*share) + " is not a number from 0 to 1");
+  void operator()(const SettingRow& row, std::optional<double>& number) const {
+    number = NumberIn(file, name, row.name);
   }
 };
 
@@ -221,7 +212,7 @@ void Project::SetBeats(std::vector<double> times, std::vector<int> counted, int 
 }
 
 void CheckProject(const Project& project, const std::string& name) {
-  DanceManner::VisitSettings(SettingCheck{name}, project);
+  project.CheckNumbers(name + ":");
   if (project.seconds && !(*project.seconds > 0 && *project.seconds <= kMaxDanceSeconds)) {
     throw InvalidArgument(
         name + ":seconds",

@@ -114,11 +114,11 @@ ordered_json ProjectJson(const Project& project, const Skeleton& skeleton, doubl
   ordered_json file = {{"studio", kProjectFormat}, {"song", project.song}};
   if (project.seconds) file["seconds"] = Number(*project.seconds);
   if (project.seed) file["seed"] = *project.seed;
-  const auto write = [&file](const char* name, const auto& setting) {
+  const auto write = [&file](const SettingRow& row, const auto& setting) {
     if constexpr (requires { setting.has_value(); }) {
-      if (setting) file[name] = Number(*setting);
+      if (setting) file[row.name] = Number(*setting);
     } else {
-      file[name] = setting;
+      file[row.name] = setting;
     }
   };
   DanceManner::VisitSettings(write, project);

@@ -6,6 +6,7 @@
 
 #include "model/audio/signal/format.h"
 #include "model/core/error.h"
+#include "model/core/range.h"
 #include "model/dance/validation.h"
 
 namespace choreo {
@@ -88,7 +89,7 @@ DanceEvents DanceScore::GiveBeats(const std::vector<double>& seconds,
   if (seconds.empty()) throw InvalidArgument(field, "empty");
   CheckBeats(seconds, field);
   CheckDownbeats(downbeats, seconds, "downbeats");
-  if (confidence) ValidateShare(*confidence, "confidence");
+  if (confidence) Range().Check(*confidence, "confidence");
   const int64_t from = timeline_.Frontier(field);
   const int64_t late = music_.GiveBeats(seconds, from, field, downbeats, confidence);
   if (late == 0) return {};

@@ -8,6 +8,7 @@
 #include "model/audio/music/feature_stream.h"
 #include "model/audio/signal/format.h"
 #include "model/core/error.h"
+#include "model/core/range.h"
 #include "model/dance/audio_feed.h"
 #include "model/dance/dance_music.h"
 #include "model/dance/recurrence.h"
@@ -37,9 +38,8 @@ void ValidateAudioStart(const ModelInfo& model, const DanceStart::Audio& audio,
 
 // Throws what the constructors of ValidDance and ValidGroup throw.
 void CheckStart(const DanceStart& start, const ModelInfo& model) {
-  CheckManner(model, start.temperature.value_or(model.default_temperature), start.style);
-  ValidateShare(start.Dynamics(), "music_dynamics");
-  ValidateShare(start.Variation(), "variation");
+  start.CheckNumbers("");
+  CheckStyle(model, start.style);
   CheckBeats(start.music_beats, "music_beats");
   CheckDownbeats(start.music_downbeats, start.music_beats, "music_downbeats");
   CheckPassages(start.music_passages, "music_passages");
@@ -49,7 +49,7 @@ void CheckStart(const DanceStart& start, const ModelInfo& model) {
                                                 std::to_string(kMaxPassages));
   }
   CheckEnergies(start.music_energies, "music_energies");
-  ValidateOutputFps(start.output_fps, "output_fps");
+  Range{kMinOutputFps, kMaxOutputFps}.Check(start.output_fps, "output_fps");
   CheckHistory(model.skeleton, start.history, "history");
   if (!start.continuation) {
     CheckedIn(start.first_frame, 0, kMaxDanceFrames, "first_frame");

@@ -6,6 +6,7 @@
 
 #include "model/core/error.h"
 #include "model/core/hit.h"
+#include "model/core/range.h"
 #include "model/dance/timeline.h"
 
 namespace choreo {
@@ -45,20 +46,8 @@ void ValidateFrames(std::span<const int64_t> frames, const std::string& field) {
   }
 }
 
-void ValidateShare(double share, const std::string& field) {
-  if (!(share >= 0 && share <= 1)) throw InvalidArgument(field, Show(share) + " is not in [0, 1]");
-}
-
 void ValidateHit(std::optional<double> hit, const std::string& field) {
-  if (hit && !(*hit >= 0 && *hit <= kMaxHit))
-    throw InvalidArgument(field, Show(*hit) + " is not in [0, " + Show(kMaxHit) + "]");
-}
-
-void ValidateOutputFps(double fps, const std::string& field) {
-  if (!(fps >= kMinOutputFps && fps <= kMaxOutputFps)) {
-    throw InvalidArgument(
-        field, Show(fps) + " is not in [" + Show(kMinOutputFps) + ", " + Show(kMaxOutputFps) + "]");
-  }
+  if (hit) Range{0, kMaxHit}.Check(*hit, field);
 }
 
 namespace {

@@ -30,12 +30,8 @@ void ValidateMask(const Skeleton& skeleton, const PoseMask& mask, const std::str
 /// Checks a control's frames: strictly ascending, within the longest dance.
 void ValidateFrames(std::span<const int64_t> frames, const std::string& field);
 
-/// Checks a share: 0 to 1.
-void ValidateShare(double share, const std::string& field);
 /// Checks a hit: none, or 0 to kMaxHit.
 void ValidateHit(std::optional<double> hit, const std::string& field);
-/// Checks an output rate: kMinOutputFps to kMaxOutputFps, frames per second.
-void ValidateOutputFps(double fps, const std::string& field);
 /// Checks a continuation: tau poses, a valid frame, and the model's fingerprint. Another
 /// fingerprint throws Error(kFailedPrecondition) unless `allow_inexact`; other faults throw
 /// Error(kInvalidArgument).

@@ -8,10 +8,17 @@
 
 #include "model/core/limits.h"
 #include "model/core/passage.h"
+#include "model/core/range.h"
 
 /// The parts of a request that say how to dance and what is known of the music. Server, projects,
 /// reports and edits share them; client::DanceConfig has members of the same names.
 namespace choreo {
+
+/// What the API calls a setting, and the range of one that is a number.
+struct SettingRow {
+  const char* name;
+  Range range = {};
+};
 
 /// How to dance. Empty: not stated. docs/extending.md says what another setting needs.
 struct DanceManner {
@@ -23,26 +30,38 @@ struct DanceManner {
   /// kDefaultVariation.
   std::optional<double> variation = {};
 
-  /// Calls visit(API name, the member of each argument...) once per setting. Arguments: structs
+  /// Calls visit(SettingRow, the member of each argument...) once per setting. Arguments: structs
   /// with these members.
   static void VisitSettings(const auto& visit, auto&&... each) {
-    visit("temperature", each.temperature...);
-    visit("style", each.style...);
-    visit("music_dynamics", each.music_dynamics...);
-    visit("variation", each.variation...);
+    visit(SettingRow{"temperature", {0, kMaxTemperature}}, each.temperature...);
+    visit(SettingRow{"style"}, each.style...);
+    visit(SettingRow{"music_dynamics"}, each.music_dynamics...);
+    visit(SettingRow{"variation"}, each.variation...);
+  }
+
+  /// Checks the numbers that are stated. Throws Error(kInvalidArgument) whose field is `place`
+  /// followed by the setting's name.
+  void CheckNumbers(const std::string& place) const {
+    const auto check = [&place](const SettingRow& row, const auto& setting) {
+      if constexpr (requires { setting.has_value(); })
+        if (setting) row.range.Check(*setting, place + row.name);
+    };
+    VisitSettings(check, *this);
   }
 
   static DanceManner Of(const auto& request) {
     DanceManner manner;
-    VisitSettings([](const char*, const auto& from, auto& to) { to = from; }, request, manner);
+    VisitSettings([](const SettingRow&, const auto& from, auto& to) { to = from; }, request,
+                  manner);
     return manner;
   }
   void SetIn(auto* request) const {
-    VisitSettings([](const char*, const auto& from, auto& to) { to = from; }, *this, *request);
+    VisitSettings([](const SettingRow&, const auto& from, auto& to) { to = from; }, *this,
+                  *request);
   }
   /// Takes `other`'s values for the settings that are empty here.
   void FillFrom(const DanceManner& other) {
-    const auto fill = [](const char*, const auto& from, auto& to) {
+    const auto fill = [](const SettingRow&, const auto& from, auto& to) {
       if (to == std::remove_cvref_t<decltype(to)>()) to = from;
     };
     VisitSettings(fill, other, *this);

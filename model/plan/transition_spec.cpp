@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "model/core/error.h"
-#include "model/core/field.h"
 #include "model/core/nearest.h"
+#include "model/core/range.h"
 #include "model/motion/pose_limits.h"
 
 namespace choreo {
@@ -43,11 +43,7 @@ std::optional<Arrival> ArrivalOf(const TransitionSpec& spec, Arrival::Lead lead)
   return Arrival(spec.arrival_frames, spec.frames, *spec.target, spec.history, spec.after, lead);
 }
 
-void CheckManner(const ModelInfo& model, double temperature, const std::string& style) {
-  if (!(temperature >= 0 && temperature <= kMaxTemperature)) {  // true for NaN, too
-    throw InvalidArgument("temperature",
-                          Show(temperature) + " is not in [0, " + Show(kMaxTemperature) + "]");
-  }
+void CheckStyle(const ModelInfo& model, const std::string& style) {
   if (style.empty() || std::ranges::find(model.styles, style) != model.styles.end()) return;
   if (style.size() > kMaxIdLength) {
     throw InvalidArgument("style", "has " + std::to_string(style.size()) + " bytes, at most " +
@@ -87,7 +83,8 @@ ValidSpec::ValidSpec(TransitionSpec request, const ModelInfo& model) : Valid(std
                                             std::to_string(spec.frames));
   }
   spec.controls.Check(model.controls, model.name, spec.frames);
-  CheckManner(model, spec.temperature, spec.style);
+  Range{0, kMaxTemperature}.Check(spec.temperature, "temperature");
+  CheckStyle(model, spec.style);
 }
 
 }  // namespace choreo

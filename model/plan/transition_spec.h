@@ -120,16 +120,15 @@ struct TransitionSpec {
   bool footwork = true;
 };
 
-/// Throws Error(kInvalidArgument), field "temperature" or "style", for a value that the model does
-/// not take.
-void CheckManner(const ModelInfo& model, double temperature, const std::string& style);
+/// Throws Error(kInvalidArgument), field "style", unless it is one of the model's or empty.
+void CheckStyle(const ModelInfo& model, const std::string& style);
 
 /// A spec checked against its model.
 class ValidSpec : public Valid<TransitionSpec> {
  public:
   /// Throws Error(kInvalidArgument), naming the field, unless frames, history, joints, mask, music
-  /// rows and controls have the model's shape, for a control that the model lacks, and what
-  /// CheckManner throws.
+  /// rows and controls have the model's shape, for a control or a style that the model lacks, and
+  /// for a temperature above kMaxTemperature.
   ValidSpec(TransitionSpec spec, const ModelInfo& model);
 
   /// Sets the numbers of another take (plan/takes.h).

@@ -50,8 +50,8 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 28> kPaths =
 std::string PathOf(std::string_view field) {
   std::string path(field);
   DanceManner::VisitSettings(
-      [&](const char* setting, const auto&) {
-        if (field == setting) path = "config." + path;
+      [&](const SettingRow& row, const auto&) {
+        if (field == row.name) path = "config." + path;
       },
       DanceManner());
   for (const auto& [own, sent] : kPaths) {

@@ -34,7 +34,9 @@ Error Broken(const std::string& what) {
 
 DanceManner MannerOf(const google::protobuf::Message& message) {
   DanceManner manner;
-  DanceManner::VisitSettings(FieldReader(message, ""), manner);
+  const FieldReader read(message, "");
+  DanceManner::VisitSettings([&](const SettingRow& row, auto& setting) { read(row.name, setting); },
+                             manner);
   return manner;
 }
 

@@ -75,7 +75,9 @@ v1::HandPose ToProto(HandPose hands) {
 }
 
 void Write(const DanceManner& manner, google::protobuf::Message* out) {
-  DanceManner::VisitSettings(FieldWriter(out, ""), manner);
+  const FieldWriter write(out, "");
+  DanceManner::VisitSettings(
+      [&](const SettingRow& row, const auto& setting) { write(row.name, setting); }, manner);
 }
 
 void Write(const KnownMusic& music, v1::DanceConfig* out) {

@@ -223,10 +223,10 @@ TEST_F(EditTest, ReportsThatNobodyWroteAreRefusedByTheirOwnNames) {
   refused({{"music_beats", {1, 2, 3}}, {"music_downbeats", {1, 2.5}}},
           "music_downbeats[1]: 2.5 s is not one of the beats");
   refused({{"music_downbeats", {1}}}, "music_downbeats[0]: 1 s is not one of the beats");
-  refused({{"variation", 1.5}}, "variation: 1.5 is not within 0 to 1");
-  refused({{"music_dynamics", -1}}, "music_dynamics: -1 is not within 0 to 1");
-  refused({{"temperature", 3}}, "temperature: 3 is not within 0 to 2");
-  refused({{"song_start", -1}}, "song_start: -1 is not within 0 to 1e+09");
+  refused({{"variation", 1.5}}, "variation: 1.5 is not in [0, 1]");
+  refused({{"music_dynamics", -1}}, "music_dynamics: -1 is not in [0, 1]");
+  refused({{"temperature", 3}}, "temperature: 3 is not in [0, 2]");
+  refused({{"song_start", -1}}, "song_start: -1 is not in [0, 1e+09]");
   refused({{"seed", -1}}, "seed: -1 is not valid in a report");
   refused({{"seed", 1.5}}, "seed: 1.5 is not valid in a report");
   nlohmann::json keys = report["keyframes"];

@@ -436,7 +436,7 @@ TEST_F(StudioTest, AProjectOfThePageIsCheckedWhenItIsDanced) {
     EXPECT_THAT(page.Ask(request).failure().message(), HasSubstr(message));
   };
   refused([](Project* project) { project->set_variation(1.5); },
-          "project:variation: 1.5 is not a number from 0 to 1");
+          "project:variation: 1.5 is not in [0, 1]");
   refused([](Project* project) { project->set_seconds(0); },
           "project:seconds: 0 is not above 0 and up to 3600");
   refused([](Project* project) { project->mutable_beats()->set_bar(17); },

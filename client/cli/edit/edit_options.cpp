@@ -88,7 +88,7 @@ std::string Shown(const std::optional<double>& number) { return InFull(*number);
 
 DanceChange ChangeOf(const EditOptions& options) {
   bool other = false;
-  const auto is_stated = [&other](const char*, const auto& setting) {
+  const auto is_stated = [&other](const SettingRow&, const auto& setting) {
     other = other || setting != std::remove_cvref_t<decltype(setting)>();
   };
   DanceManner::VisitSettings(is_stated, options);
@@ -146,7 +146,9 @@ void FillFromReport(bool says_start, EditOptions* options) {
   }
   options->changed = WithBeats(options->beats, options->changed);
   take("seed", settings.seed, options->seed);
-  DanceManner::VisitSettings(take, settings, *options);
+  DanceManner::VisitSettings(
+      [&](const SettingRow& row, const auto& from, auto& to) { take(row.name, from, to); },
+      settings, *options);
   ControlRequest::VisitControls(
       [&](size_t row, const auto& control) {
         if (control && !options->controls.IsOption(row))

@@ -191,7 +191,8 @@ Error AsTyped(const Error& error) {
   const auto option = kOptions.find(error.field());
   if (option != kOptions.end()) return error.Of(option->second);
   std::string of_setting;
-  const auto find = [&](std::string name, const auto&) {
+  const auto find = [&](const SettingRow& row, const auto&) {
+    std::string name = row.name;
     if (error.field() != "config." + name) return;
     std::ranges::replace(name, '_', '-');
     of_setting = "--" + name;

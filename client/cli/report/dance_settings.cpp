@@ -2,14 +2,11 @@
 
 #include <cmath>
 #include <iostream>
-#include <string_view>
 
 #include "client/authoring/json_fields.h"
 #include "client/cli/report/report_controls.h"
 #include "model/audio/signal/format.h"
-#include "model/core/error.h"
-#include "model/core/limits.h"
-#include "model/core/rounded.h"
+#include "model/core/range.h"
 
 namespace choreo::cli {
 namespace {
@@ -50,16 +47,8 @@ bool DanceSettings::FillSong(const std::filesystem::path& report, bool says_star
 }
 
 void DanceSettings::Check(const std::string& place) const {
-  const auto check = [&](const char* member, std::optional<double> value, double most) {
-    if (!value || (*value >= 0 && *value <= most)) return;
-    throw InvalidArgument(place + member, InFull(*value) + " is not within 0 to " + InFull(most));
-  };
-  const auto check_setting = [&](const char* member, const auto& value) {
-    if constexpr (requires { value.has_value(); })
-      check(member, value, std::string_view(member) == "temperature" ? kMaxTemperature : 1);
-  };
-  DanceManner::VisitSettings(check_setting, *this);
-  check("song_start", song_start_s, authoring::kMaxSeconds);
+  CheckNumbers(place);
+  Range{0, authoring::kMaxSeconds}.Check(song_start_s, place + "song_start");
   CheckBeats(beats, place + "music_beats");
   CheckDownbeats(downbeats, beats, place + "music_downbeats");
 }

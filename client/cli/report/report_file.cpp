@@ -36,8 +36,8 @@ template <typename Report, typename Settings, typename Visit>
 void VisitMembers(Report& report, Settings& settings, const Visit& visit) {
   visit(report, "model", settings.model);
   visit(report, "seed", settings.seed);
-  DanceManner::VisitSettings([&](const char* name, auto& setting) { visit(report, name, setting); },
-                             settings);
+  DanceManner::VisitSettings(
+      [&](const SettingRow& row, auto& setting) { visit(report, row.name, setting); }, settings);
   visit(report, "song", settings.song);
   visit(report, "song_start", settings.song_start_s);
   visit(report, "music_beats", settings.beats);

@@ -234,8 +234,8 @@ TEST_F(ProjectTest, NamesInvalidFields) {
   with("controls", {{"gaze", json::object()}}, ".gaze: is none of root_path, velocity_factors");
   with("controls", {{"root_path", {{"frames", {0, 90}}}}},
        ".root_path: does not fit the API's message");
-  with("music_dynamics", 1.5, ": 1.5 is not a number from 0 to 1");
-  with("variation", -1, ": -1 is not a number from 0 to 1");
+  with("music_dynamics", 1.5, ": 1.5 is not in [0, 1]");
+  with("variation", -1, ": -1 is not in [0, 1]");
   with("beats", 7, ": 7 is not a list");
   with("beats", {7}, "[0]: 7 is not a beat: its second and its count, 1 to 16, as in [12.5, 1]");
   with("beats", json::array({{0.5, 17}}), "[0]: [0.5,17] is not a beat");
