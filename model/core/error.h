@@ -23,8 +23,11 @@ enum class ErrorCode {
 /// What a caller can do about a failure.
 enum class Remedy {
   kNone,
-  kTakePart,  ///< take a part of the sound, which is too long
-  kConvert,   ///< convert the sound file to another format
+  kTakePart,      ///< take a part of the sound, which is too long
+  kConvert,       ///< convert the sound file to another format
+  kGrantFrames,   ///< grant frames, so that keys grant none
+  kSetEnd,        ///< set the frame at which the dance ends
+  kAllowInexact,  ///< allow a dance to continue in another way
 };
 
 /// The only exception type of this project. `field()` is the path of the offending value in the

@@ -83,7 +83,7 @@ AudioFeed::AudioFeed(double sample_rate, int channels, int64_t first_sample, Hea
 void AudioFeed::Push(std::span<const float> interleaved, int64_t first_sample,
                      const std::function<void()>& on_rows) {
   if (features_.finished()) {
-    throw Error(ErrorCode::kFailedPrecondition, "push_audio", "comes after end_of_audio");
+    throw Error(ErrorCode::kFailedPrecondition, "push_audio", "comes after the end of the music");
   }
   const int64_t expected = features_.next_sample();
   if (first_sample != expected) {

@@ -46,7 +46,7 @@ class DanceChain : public Delivery<DanceSink> {
     Apply([](DanceScore&) { return DanceEvents(); });
   }
   AudioFeed& Audio(const char* field) {
-    if (audio_ == nullptr) throw InvalidArgument(field, "comes without DanceConfig::audio");
+    if (audio_ == nullptr) throw InvalidArgument(field, "comes in a dance without music");
     return *audio_;
   }
   void FinishAudio();  // requires pushing_

@@ -99,8 +99,8 @@ ValidGroup::ValidGroup(GroupRequest group, const ModelInfo& model) : Valid(std::
   CheckStart(request, model);
   CheckedIn(request.candidates, 1, kMaxCandidates, "candidates");
   if (request.rank_by == RankBy::kLikelihood && !model.likelihood)
-    throw InvalidArgument("rank_by", "RANK_BY_LIKELIHOOD, but \"" + model.name +
-                                         "\" has no likelihood; RANK_BY_QUALITY is possible");
+    throw InvalidArgument("rank_by",
+                          "\"" + model.name + "\" has no likelihood, only quality is possible");
   CheckedIn(request.frames, 1, std::min(kMaxTransitionFrames, model.max_transition_frames),
             "frames");
   CheckedIn(request.FirstFrame(), 0, kMaxDanceFrames, "continuation.frame");
@@ -116,8 +116,7 @@ ValidGroup::ValidGroup(GroupRequest group, const ModelInfo& model) : Valid(std::
   }
   ValidateControls(request.controls, model, "controls");
   if (!request.audio) {
-    if (!request.samples.empty())
-      throw InvalidArgument("samples", "comes without GroupRequest::audio");
+    if (!request.samples.empty()) throw InvalidArgument("samples", "come without their format");
     return;
   }
   ValidateAudioStart(model, *request.audio, request.FirstFrame());

@@ -74,7 +74,7 @@ int64_t Timeline::Resolve(const KeyMoment& when, const std::string& field) const
 }
 
 void Timeline::CheckOpen(const std::string& field) const {
-  if (complete_) throw InvalidArgument(field, "comes after keyframes_complete");
+  if (complete_) throw InvalidArgument(field, "comes after the keys are complete");
 }
 
 const Key* Timeline::Neighbour(int64_t frame, const std::string& except_id) const {
@@ -97,9 +97,15 @@ KeyRejected Timeline::Reject(const std::string& id, int64_t frame, KeyRejected::
   return {id, frame, EarliestFrame(), std::move(reason), code};
 }
 
-// Explains frozen frames to clients that edit keys without GenerateUntil.
-std::string Timeline::WhyFrozen() const {
-  return explicit_grants_ ? "" : ": without generate_until each key freezes what lies before it";
+KeyRejected Timeline::RejectFrozen(const std::string& id, int64_t frame, KeyRejected::Code code,
+                                   const std::string& reason) {
+  if (explicit_grants_) return Reject(id, frame, code, reason);
+  // Surprises those who edit keys without GenerateUntil.
+  KeyRejected rejection =
+      Reject(id, frame, code,
+             reason + ": as long as no frames are granted, each key freezes what lies before it");
+  rejection.remedy = Remedy::kGrantFrames;
+  return rejection;
 }
 
 std::optional<KeyRejected> Timeline::BeforeTheDance(const std::string& id, int64_t frame) const {
@@ -129,14 +135,13 @@ std::optional<KeyRejected> Timeline::Set(Key key, const KeyMoment& when, const s
   const auto known = frame_of_.find(id);
   if (known != frame_of_.end() && known->second < frontier_) {
     previous_frame_ = frame;
-    return Reject(
-        id, frame, KeyRejected::Code::kFrozen,
-        "key \"" + id + "\" stands in frozen frames, at " + Frames(known->second) + WhyFrozen());
+    return RejectFrozen(id, frame, KeyRejected::Code::kFrozen,
+                        "key \"" + id + "\" stands in frozen frames, at " + Frames(known->second));
   }
   if (frame < frontier_) {
     previous_frame_ = frame;
-    return Reject(id, frame, KeyRejected::Code::kTooLate,
-                  "frames before " + Frames(frontier_) + " are frozen" + WhyFrozen());
+    return RejectFrozen(id, frame, KeyRejected::Code::kTooLate,
+                        "frames before " + Frames(frontier_) + " are frozen");
   }
   if (const Key* neighbour = Neighbour(frame, id)) {
     throw InvalidArgument(PathOf(when, field), "frame " + Frames(frame) + " is closer than " +
@@ -181,8 +186,8 @@ std::optional<KeyRejected> Timeline::Remove(const std::string& id, const std::st
                   "key \"" + id + "\" was rejected before");
   }
   if (known->second < frontier_) {
-    return Reject(id, known->second, KeyRejected::Code::kFrozen,
-                  "frames before " + Frames(frontier_) + " are frozen" + WhyFrozen());
+    return RejectFrozen(id, known->second, KeyRejected::Code::kFrozen,
+                        "frames before " + Frames(frontier_) + " are frozen");
   }
   const int64_t frame = known->second;
   keys_.erase(frame);
@@ -215,8 +220,8 @@ void Timeline::Complete() {
   CheckOpen("keys_complete");
   const bool has_end = options_.end_frame || options_.has_music;
   if (!has_end && keys_.empty() && rejected_.empty() && frontier_ <= options_.first_frame) {
-    throw InvalidArgument("keys_complete",
-                          "the dance has no end: no keyframe, no music and no config.frames");
+    throw Error(ErrorCode::kInvalidArgument, "keys_complete",
+                "the dance has no end: no key, no music and no end frame", Remedy::kSetEnd);
   }
   complete_ = true;
   Record(kNever);

@@ -159,7 +159,8 @@ class Timeline {
   int64_t EarliestFrame() const;
   KeyRejected Reject(const std::string& id, int64_t frame, KeyRejected::Code why,
                      std::string reason);
-  std::string WhyFrozen() const;
+  KeyRejected RejectFrozen(const std::string& id, int64_t frame, KeyRejected::Code why,
+                           const std::string& reason);
   std::optional<KeyRejected> BeforeTheDance(const std::string& id, int64_t frame) const;
   void Grant(int64_t frame);
   void Record(int64_t granted);

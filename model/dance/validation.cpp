@@ -111,7 +111,8 @@ void ValidateContinuation(const ModelInfo& model, const Continuation& continuati
   if (allow_inexact) return;
   throw Error(ErrorCode::kFailedPrecondition, field + ".fingerprint",
               "\"" + continuation.fingerprint + "\" is not this server's, \"" + model.fingerprint +
-                  "\": the dance would continue differently, which allow_inexact_resume allows");
+                  "\": the dance would continue differently, which must be allowed",
+              Remedy::kAllowInexact);
 }
 
 }  // namespace choreo

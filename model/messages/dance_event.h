@@ -5,6 +5,7 @@
 #include <string>
 #include <variant>
 
+#include "model/core/error.h"
 #include "model/core/hand_pose.h"
 
 /// What a dance reports while it runs; shared by server and client. Frames are absolute, at the
@@ -46,7 +47,8 @@ struct KeyRejected {
   int64_t earliest_frame = 0;  ///< the first that a new key may have now
   std::string reason = {};
   Code code = Code::kUnknown;
-  std::string field = {};  ///< of kInvalid: the path in the message, as in BadRequest
+  std::string field = {};         ///< of kInvalid: the path in the message, as in BadRequest
+  Remedy remedy = Remedy::kNone;  ///< only in the server, whose `reason` then names it
 };
 
 /// A beat of the music to which the dance is timed.

@@ -45,6 +45,13 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 28> kPaths =
     {"key", "keyframe"},
 }};
 
+// What the API calls what a caller of the model can do.
+constexpr std::array<std::pair<Remedy, std::string_view>, 3> kRemedies = {{
+    {Remedy::kGrantFrames, "config.generate_until"},
+    {Remedy::kSetEnd, "config.frames"},
+    {Remedy::kAllowInexact, "config.allow_inexact_resume"},
+}};
+
 }  // namespace
 
 std::string PathOf(std::string_view field) {
@@ -61,6 +68,17 @@ std::string PathOf(std::string_view field) {
       return std::string(sent).append(rest);
   }
   return path;
+}
+
+std::string WithRemedy(std::string text, Remedy remedy) {
+  for (const auto& [known, path] : kRemedies)
+    if (known == remedy) text.append(" (").append(path).append(")");
+  return text;
+}
+
+Error AsSent(const Error& error) {
+  return {error.code(), PathOf(error.field()), WithRemedy(error.Of("").what(), error.remedy()),
+          error.remedy()};
 }
 
 }  // namespace choreo::wire

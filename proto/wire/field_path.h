@@ -18,12 +18,19 @@ namespace choreo::wire {
 /// unknown names unchanged. Not for paths: "audio" is a name, and a path of another value.
 std::string PathOf(std::string_view field);
 
+/// What the model says, followed by the field that is the remedy, if it is one: "it has no end"
+/// -> "it has no end (config.frames)".
+std::string WithRemedy(std::string text, Remedy remedy);
+
+/// The same error, about the path of its field, with its remedy.
+Error AsSent(const Error& error);
+
 /// Calls the model. Errors name paths instead. Must not contain code that throws paths.
 auto WithPaths(const auto& action) {
   try {
     return action();
   } catch (const Error& error) {
-    throw error.Of(PathOf(error.field()));
+    throw AsSent(error);
   }
 }
 

@@ -1,6 +1,7 @@
 #include "model/motion/controls.h"
 #include "proto/wire/control_messages.h"
 #include "proto/wire/convert.h"
+#include "proto/wire/field_path.h"
 
 namespace choreo::wire {
 namespace {
@@ -29,7 +30,7 @@ void Fill(const KeyRejected& key, v1::Event* out) {
   v1::KeyframeRejected* rejected = out->mutable_keyframe_rejected();
   rejected->set_id(key.id);
   rejected->set_earliest_frame(key.earliest_frame);
-  rejected->set_reason(key.reason);
+  rejected->set_reason(WithRemedy(key.reason, key.remedy));
   rejected->set_code(static_cast<v1::RejectionCode>(key.code));
   rejected->set_field(key.field);
 }

@@ -300,7 +300,7 @@ TEST_F(ControlledDanceTest, BadControlsLeaveTheDanceAsItIs) {
                 [&] { s.SetControls(Factor(BodyPart::kLeftArm, -1)); });
     s.SetPaused(true);  // a dance that is over would take no notice
     s.KeysComplete();
-    ExpectError(ErrorCode::kInvalidArgument, "controls: comes after keyframes_complete",
+    ExpectError(ErrorCode::kInvalidArgument, "controls: comes after the keys are complete",
                 [&] { s.SetControls(Factor(BodyPart::kLeftArm, 1)); });
     s.SetPaused(false);
   });

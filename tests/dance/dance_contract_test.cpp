@@ -66,9 +66,9 @@ TEST_F(DanceContract, AudioThatIsNoAudioIsRefused) {
       "push_audio: ended without a sample");
   EXPECT_EQ(Refusal([&](DanceStream& stream) { stream.PushAudio(samples, 0); },
                     ErrorCode::kInvalidArgument),
-            "push_audio: comes without DanceConfig::audio");
+            "push_audio: comes in a dance without music");
   EXPECT_EQ(Refusal([](DanceStream& stream) { stream.EndOfAudio(); }, ErrorCode::kInvalidArgument),
-            "end_of_audio: comes without DanceConfig::audio");
+            "end_of_audio: comes in a dance without music");
 }
 
 TEST_F(DanceContract, AudioBeyondTheLimitOrTheEndIsRefused) {
@@ -89,7 +89,7 @@ TEST_F(DanceContract, AudioBeyondTheLimitOrTheEndIsRefused) {
                   stream.PushAudio(ten_seconds, 220500);
                 },
                 ErrorCode::kFailedPrecondition, true),
-            "push_audio: comes after end_of_audio");
+            "push_audio: comes after the end of the music");
   EXPECT_EQ(Refusal(
                 [&](DanceStream& stream) {
                   stream.PushAudio(ten_seconds, 0);
@@ -117,7 +117,7 @@ TEST_F(DanceContract, ADanceNeedsAnEnd) {
   for (auto close : {&DanceStream::KeysComplete, &DanceStream::HalfClose}) {
     EXPECT_EQ(
         Refusal([close](DanceStream& stream) { (stream.*close)(); }, ErrorCode::kInvalidArgument),
-        "keys_complete: the dance has no end: no keyframe, no music and no config.frames");
+        "keys_complete: the dance has no end: no key, no music and no end frame");
   }
 }
 

@@ -166,7 +166,7 @@ TEST(Timeline, LateMessagesAreRejectedWithTheEarliestFrame) {
   EXPECT_EQ(timeline.Remove("b", "remove"), std::nullopt);
 }
 
-// Keys that freeze without a grant surprise whoever edits them, so the error names the remedy.
+// Keys that freeze without a grant surprise whoever edits them, so the rejection has a remedy.
 TEST(Timeline, RejectionsExplainFreezingWithoutGrants) {
   for (const bool grants : {false, true}) {
     Timeline timeline({});
@@ -176,10 +176,9 @@ TEST(Timeline, RejectionsExplainFreezingWithoutGrants) {
     for (const auto& late : {Set(timeline, "b", AtFrame{50}), Set(timeline, "a", AtFrame{200}),
                              timeline.Remove("a", "remove")}) {
       ASSERT_TRUE(late);
-      EXPECT_EQ(
-          late->reason.ends_with("without generate_until each key freezes what lies before it"),
-          !grants)
+      EXPECT_EQ(late->reason.ends_with("each key freezes what lies before it"), !grants)
           << late->reason;
+      EXPECT_EQ(late->remedy, grants ? Remedy::kNone : Remedy::kGrantFrames);
     }
   }
 }
@@ -215,7 +214,8 @@ TEST(Timeline, RefusesImpossibleKeys) {
   // A key may move next to its own former place.
   EXPECT_EQ(Set(timeline, "a", AtFrame{31}), std::nullopt);
   timeline.Complete();
-  EXPECT_THAT(Refusal([&] { Set(timeline, "b", AtFrame{60}); }), HasSubstr("keyframes_complete"));
+  EXPECT_THAT(Refusal([&] { Set(timeline, "b", AtFrame{60}); }),
+              HasSubstr("comes after the keys are complete"));
   EXPECT_THAT(Refusal([&] { timeline.Complete(); }), HasSubstr("keys_complete"));
 }
 

@@ -182,8 +182,7 @@ TEST(TransitionGroup, RanksAsRequestedIfTheModelCan) {
   ModelInfo without = queue->model();
   without.likelihood = false;
   ExpectError(ErrorCode::kInvalidArgument,
-              "rank_by: RANK_BY_LIKELIHOOD, but \"fake\" has no likelihood; RANK_BY_QUALITY is "
-              "possible",
+              "rank_by: \"fake\" has no likelihood, only quality is possible",
               [&] { ValidGroup(request, without); });
 }
 

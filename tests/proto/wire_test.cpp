@@ -250,4 +250,23 @@ TEST(Wire, ErrorsNameTheFieldAsSent) {
   });
 }
 
+TEST(Wire, RemediesNameFields) {
+  for (const Remedy remedy : {Remedy::kGrantFrames, Remedy::kSetEnd, Remedy::kAllowInexact}) {
+    const std::string text = wire::WithRemedy("", remedy);
+    ASSERT_GT(text.size(), 3U);
+    EXPECT_TRUE(HasPath(v1::StreamDanceRequest::descriptor(), text.substr(2, text.size() - 3)))
+        << text;
+  }
+  ExpectError(ErrorCode::kInvalidArgument, "keyframes_complete: it has no end (config.frames)", [] {
+    wire::WithPaths([] {
+      throw Error(ErrorCode::kInvalidArgument, "keys_complete", "it has no end", Remedy::kSetEnd);
+    });
+  });
+  EXPECT_EQ(wire::WithRemedy("it is too long", Remedy::kTakePart), "it is too long");
+  EXPECT_EQ(wire::ToProto(KeyRejected{.reason = "it is frozen", .remedy = Remedy::kGrantFrames}, 30)
+                .keyframe_rejected()
+                .reason(),
+            "it is frozen (config.generate_until)");
+}
+
 }  // namespace choreo::wire_test

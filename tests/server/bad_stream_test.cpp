@@ -90,7 +90,10 @@ INSTANTIATE_TEST_SUITE_P(
         {"NoConfig", Sent({"key"}), "config", {"missing", "first"}},
         {"TwoConfigs", Sent({kConfig, kConfig}), "config", {"once"}},
         {"EmptyMessage", Sent({kConfig, ""}), "request", {"empty"}},
-        {"HalfCloseAfterConfig", Sent({kConfig}), "keyframes_complete", {"no end"}},
+        {"HalfCloseAfterConfig",
+         Sent({kConfig}),
+         "keyframes_complete",
+         {"no end", "(config.frames)"}},
         {"KeysAfterComplete",
          [](const KeyMessage& key) {
            v1::StreamDanceRequest complete;
@@ -98,7 +101,7 @@ INSTANTIATE_TEST_SUITE_P(
            return Requests{MusicConfigRequest(), key, complete, key};
          },
          "keyframes[1]",
-         {"keyframes_complete"}},
+         {"after the keys are complete"}},
         {"NoBeats", Sent({kConfig, "music_beats {}"}), "music_beats[0].times", {"empty"}},
         {"BeatsBackwards",
          Sent({kConfig, "music_beats { times: 1 }", "music_beats { times: [3, 2.5] }"}),

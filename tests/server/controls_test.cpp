@@ -283,7 +283,7 @@ TEST_F(ControlsServerTest, RefusedAfterKeyframesComplete) {
   complete.mutable_keyframes_complete();
   const Answer answer = Dance({config, complete, Asking(Factors({1}))});
   EXPECT_EQ(answer.status.error_code(), grpc::StatusCode::INVALID_ARGUMENT);
-  EXPECT_EQ(answer.status.error_message(), "controls[0]: comes after keyframes_complete");
+  EXPECT_EQ(answer.status.error_message(), "controls[0]: comes after the keys are complete");
 }
 
 struct BadControls {

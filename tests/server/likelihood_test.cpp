@@ -59,8 +59,7 @@ TEST_F(LikelihoodTest, ModelWithoutOneSaysSoAndRefuses) {
   const Answer answer = Generate(Request("default", v1::RANK_BY_LIKELIHOOD));
   EXPECT_EQ(answer.status.error_code(), grpc::StatusCode::INVALID_ARGUMENT);
   EXPECT_EQ(answer.status.error_message(),
-            "rank_by: RANK_BY_LIKELIHOOD, but \"default\" has no likelihood; RANK_BY_QUALITY is "
-            "possible");
+            "rank_by: \"default\" has no likelihood, only quality is possible");
   EXPECT_TRUE(Generate(Request("default", v1::RANK_BY_QUALITY)).status.ok());
 }
 
