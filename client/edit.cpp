@@ -11,8 +11,6 @@
 namespace choreo::client {
 namespace {
 
-constexpr int64_t kLeadIn = 10;  // poses of the following motion that are sent
-
 /// New frames, at the model's rate, starting at `first`.
 struct Part {
   int64_t first = 0;
@@ -42,8 +40,9 @@ class Edit {
 
   double fps() const { return options_.model.fps; }
   int64_t frames() const { return static_cast<int64_t>(poses_.size()); }
-  /// The poses from `first` on, at most `kLeadIn`.
-  std::vector<Pose> From(int64_t first) const { return Poses(first, first + kLeadIn); }
+  /// TransitionRequest::after of a transition to the frame before this one: servers use the first
+  /// pose alone.
+  std::vector<Pose> Leading(int64_t frame) const { return Poses(frame, frame + 1); }
   const Pose& pose(int64_t frame) const { return poses_[static_cast<size_t>(frame)]; }
   int64_t FrameOf(const KeyPose& key) const {
     return key.frame.value_or(std::llround(key.time_s * fps()));
@@ -272,7 +271,7 @@ TransitionRequest RequestFor(const Edit& work, const Way& way, size_t index,
   }
   // Omits controls while a pose is held: the server would warn that they have no effect.
   if (stop.held) request.config.controls = {};
-  if (is_last && way.leads_on) request.after = work.From(way.to + 1);
+  if (is_last && way.leads_on) request.after = work.Leading(way.to + 1);
   return request;
 }
 
@@ -431,7 +430,7 @@ EditedDance CloseLoop(const Client& client, const FinishedDance& dance, const Ed
   TransitionRequest request = work.After(from, work.frames() + added - from);
   request.target = work.pose(0);
   request.target_id = "the beginning";
-  request.after = work.From(1);
+  request.after = work.Leading(1);
   const TransitionCandidate back = work.Generate(request, true).front();
   work.Splice({from + 1,
                {back.motion.frames.begin(), back.motion.frames.end() - 1},
