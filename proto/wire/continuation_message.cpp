@@ -15,11 +15,12 @@ void CheckSize(int64_t size, int64_t expected, const std::string& shape, const s
 
 }  // namespace
 
-v1::Continuation ToProto(const Continuation& continuation, const Skeleton& skeleton,
-                         uint64_t seed) {
+v1::Continuation ToProto(const Continuation& continuation, const Skeleton& skeleton, uint64_t seed,
+                         bool sends_file) {
   v1::Continuation out;
   out.set_frame(continuation.frame);
-  if (continuation.audio_from_sample) out.set_audio_from_sample(*continuation.audio_from_sample);
+  if (continuation.audio_from_sample && !sends_file)
+    out.set_audio_from_sample(*continuation.audio_from_sample);
   out.set_fingerprint(continuation.fingerprint);
   out.set_seed(seed);
   for (const Pose& pose : continuation.poses) {

@@ -11,7 +11,10 @@
 /// opaque. Pure functions, thread-safe.
 namespace choreo::wire {
 
-v1::Continuation ToProto(const Continuation& continuation, const Skeleton& skeleton, uint64_t seed);
+/// `sends_file`: the client sends a whole file, even when it resumes. The message then names no
+/// sample to send music from.
+v1::Continuation ToProto(const Continuation& continuation, const Skeleton& skeleton, uint64_t seed,
+                         bool sends_file);
 
 /// Reads a continuation, except for the seed. Throws below `field`: Error(kFailedPrecondition) for
 /// a dance of another skeleton, Error(kInvalidArgument) for arrays whose sizes do not match

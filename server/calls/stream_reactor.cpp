@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "model/audio/music/music_analysis.h"
-#include "model/audio/signal/pcm.h"
 #include "model/dance/dance_stream.h"
 #include "proto/wire/continuation_message.h"
 #include "proto/wire/convert.h"
@@ -95,8 +94,8 @@ class DanceSession final : public CallSession<DanceResponse, DanceStream>,
 
   void OnContinuation(const Continuation& continuation) override {
     DanceResponse response;
-    *response.mutable_continuation() = wire::ToProto(continuation, queue_->model().skeleton, seed_);
-    if (SendsFile()) response.mutable_continuation()->clear_audio_from_sample();
+    *response.mutable_continuation() =
+        wire::ToProto(continuation, queue_->model().skeleton, seed_, SendsFile());
     outbox().Send(std::move(response));
     if (serving_.calls.ends_at_transitions()) End(ResumeElsewhere());
   }
@@ -197,15 +196,12 @@ class DanceSession final : public CallSession<DanceResponse, DanceStream>,
         [&] { return std::make_shared<DanceStream>(*queue_, config, shared_from_this()); }));
   }
 
-  // A client sends the whole file, even when it resumes a dance.
   bool SendsFile() const { return audio_ && audio_->encoding() == v1::AUDIO_ENCODING_FILE; }
 
   void TakeAudio(DanceStream& stream, const v1::Audio& audio) {
     if (!audio_) throw WithoutAudioFormat("audio");
     if (!SendsFile()) {
-      const bool floats = audio_->encoding() == v1::AUDIO_ENCODING_PCM_F32LE;
-      const auto channels = static_cast<int>(audio_->channels());
-      const auto samples = ReadPcm(audio.data(), floats, channels, "audio.data");
+      const auto samples = ReadSamples(audio, *audio_);
       return wire::WithPaths([&] { stream.PushAudio(samples, audio.first_sample()); });
     }
     if (file_decoded_) {

@@ -85,8 +85,7 @@ class TransitionSession final : public CallSession<v1::GenerateTransitionRespons
       candidate->set_candidate(static_cast<uint32_t>(report.candidate));
       *candidate->mutable_report() = wire::ToProto(report.quality);
       *candidate->mutable_continuation() =
-          wire::ToProto(report.continuation, queue_->model().skeleton, seed_);
-      if (sends_file_) candidate->mutable_continuation()->clear_audio_from_sample();
+          wire::ToProto(report.continuation, queue_->model().skeleton, seed_, sends_file_);
       frames += report.quality.frames;
       if (report.quality.support) of_model.support.Add(*report.quality.support);
       for (const KeyReached& key : report.quality.keys) of_model.steered_m.Add(key.correction_m);
@@ -128,7 +127,7 @@ class TransitionSession final : public CallSession<v1::GenerateTransitionRespons
   // group.
   Models::Use queue_;  // keeps the model even if the server withdraws it
   v1::RotationEncoding encoding_ = v1::ROTATION_ENCODING_UNSPECIFIED;
-  bool sends_file_ = false;  // a client sends the whole file, even when it resumes
+  bool sends_file_ = false;
   uint64_t seed_ = 0;
   std::optional<Warning> music_damaged_;
 };

@@ -156,15 +156,18 @@ ValidGroup ToGroupRequest(const v1::GenerateTransitionRequest& message, const Mo
     }
     request.audio = SamplesOf(format);
     if (format.encoding() != v1::AUDIO_ENCODING_FILE) {
-      request.samples =
-          ReadPcm(message.audio().data(), format.encoding() == v1::AUDIO_ENCODING_PCM_F32LE,
-                  request.audio->channels, "audio.data");
+      request.samples = ReadSamples(message.audio(), format);
       if (request.samples.empty()) throw InvalidArgument("audio", "has no samples");
     }
   } else if (message.has_audio()) {
     throw WithoutAudioFormat("audio");
   }
   return wire::WithPaths([&] { return ValidGroup(std::move(request), model); });
+}
+
+std::vector<float> ReadSamples(const v1::Audio& audio, const v1::AudioFormat& format) {
+  return ReadPcm(audio.data(), format.encoding() == v1::AUDIO_ENCODING_PCM_F32LE,
+                 static_cast<int>(format.channels()), "audio.data");
 }
 
 Error WithoutAudioFormat(const std::string& field) {

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "choreo/v1/choreography.pb.h"
 #include "model/core/error.h"
@@ -22,6 +23,10 @@ ValidDance ToDanceConfig(const v1::DanceConfig& config, const ModelInfo& model,
 /// (server/messages/music_file.h). Uses `fresh_seed` if the message has no seed.
 ValidGroup ToGroupRequest(const v1::GenerateTransitionRequest& request, const ModelInfo& model,
                           uint64_t fresh_seed);
+
+/// Reads the samples of a checked format, which is not that of files, interleaved. Errors are in
+/// "audio.data".
+std::vector<float> ReadSamples(const v1::Audio& audio, const v1::AudioFormat& format);
 
 /// The error for music in `field` without config.audio_format; it shows what to send.
 Error WithoutAudioFormat(const std::string& field);

@@ -122,12 +122,13 @@ TEST(Wire, ContinuationsRoundTrip) {
                                  .last_beat = 0.75,
                                  .stage = GroundFrame{{1, 0, 2}, 0.5},
                                  .reached = {{"a", 20, 0.25, 0.5, 0.75, 1}}},
-                    skeleton, /*seed=*/7);
+                    skeleton, /*seed=*/7, /*sends_file=*/false);
   ExpectFull(message);
   const Continuation back = wire::FromProto(message, skeleton, 2, "config.continuation");
-  EXPECT_TRUE(
-      google::protobuf::util::MessageDifferencer::Equals(wire::ToProto(back, skeleton, 7), message))
+  EXPECT_TRUE(google::protobuf::util::MessageDifferencer::Equals(
+      wire::ToProto(back, skeleton, 7, false), message))
       << message.DebugString();
+  EXPECT_EQ(wire::ToProto(back, skeleton, 7, /*sends_file=*/true).audio_from_sample(), 0);
   EXPECT_THROW(wire::FromProto(message, skeleton, 3, "config.continuation"), Error);
 }
 
