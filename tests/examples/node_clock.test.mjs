@@ -3,6 +3,7 @@ import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { setTimeout as sleep } from 'node:timers/promises';
 import { connectDance } from '../../client/node/page/index.js';
+import { ChoreoClient, pose } from '../../client/node/src/index.js';
 import { withBackEnd } from './back_end.mjs';
 
 const order = () => ({ seconds: 30, config: { seed: '7' } });
@@ -144,3 +145,37 @@ test("a page that wears nothing shows SMPL's own joints", () =>
     assert.equal(shown.pose.turns.length, 4 * skeleton.joint_names.length);
     page.close();
   }));
+
+/** Configurations of dances that begin later, and their first frames. */
+async function laterStarts() {
+  const client = new ChoreoClient(process.env.CHOREO_SERVER);
+  try {
+    const poses = [{ ...pose((await client.info()).models[0].skeleton), root_position: { x: 0, y: 1, z: 0 } }];
+    let kept;
+    for await (const { continuation } of client.streamDance([{ config: { seed: '1', frames: '150' } }])) if (Number(continuation?.frame) > 30) kept ??= continuation;
+    return [[Number(kept.frame), { continuation: JSON.parse(JSON.stringify(kept)) }], [60, { history: { poses, first_frame: '60' } }]];
+  } finally {
+    client.close();
+  }
+}
+
+test('a dance that goes on from a continuation, or from later poses, plays from its first frame on', async () => {
+  for (const [first, config] of await laterStarts()) {
+    await withBackEnd(
+      () => ({ seconds: first / 30 + 2, config }),
+      async ({ url }) => {
+        await withPage(url, async ({ page, song, shown }) => {
+          assert.equal((await page.begun).first_frame, first);
+          assert.ok(song.currentTime >= first / 30, `it is set to ${song.currentTime} s`);
+          assert.ok(page.soon() >= first / 30 + 2, `${page.soon()} s`);
+          while (shown().state !== 'over') await sleep(10);
+          assert.ok(song.currentTime >= first / 30 + 1.9);
+        });
+        const page = connectDance(url);
+        await page.begun;
+        assert.equal(page.at(first / 30).state, 'waiting');
+        while (page.follow().state !== 'over') await sleep(10);
+      },
+    );
+  }
+});

@@ -10,6 +10,11 @@ export class Clock {
     return this.paused ? this.#at : this.#at + (performance.now() - this.#since) / 1000;
   }
 
+  set currentTime(seconds) {
+    this.#at = seconds;
+    this.#since = performance.now();
+  }
+
   play() {
     this.#since = performance.now();
     this.paused = false;

@@ -5,6 +5,8 @@ import type { Character, Shown, Smpl } from '../character/index.js';
 export interface DanceHeader {
   id: string;
   frame_rate: number;
+  /** The first frame to come: not 0 where the dance goes on from a continuation, or from later poses. */
+  first_frame: number;
   skeleton: Smpl;
 }
 
@@ -68,7 +70,8 @@ export interface PageDance {
   /**
    * The same at an <audio> element's time, or by a clock of its own: it starts when some poses are there, and waits where they are late. Call it for
    * each picture. It tells the back end where the page plays, so a dance waits while you pause the element. It plays only what it has paused itself:
-   * an element that you pause stays paused until you play it. Begin in a click: browsers play no sound before one.
+   * an element that you pause stays paused until you play it. An element before the dance's first frame is set to it. Begin in a click: browsers
+   * play no sound before one.
    */
   follow(audio?: { currentTime: number; readonly paused: boolean; readonly ended: boolean; play(): unknown; pause(): void }): Shown;
   /** The earliest time for a new key: not settled, and a second from this page's keys that are still to come. */

@@ -35,6 +35,7 @@ class PageDance {
   #worn; // {character, player, add(frames), end()}
   #holds = true; // the music waits for the dancer
   #clock; // for dances without music
+  #placed; // the element that has been set to the dance's beginning
   #newest = 0; // seconds: the end of what has come
   #pending = new PendingKeys();
   #told = new ToldClock((clock) => this.#send('POST', '/clock', JSON.stringify(clock)));
@@ -68,6 +69,7 @@ class PageDance {
   }
 
   follow(audio = (this.#clock ??= new Clock())) {
+    this.#place(audio);
     const shown = this.at(audio.currentTime);
     if (shown.state === 'starved' && !audio.paused && !this.over) {
       this.#holds = true;
@@ -79,6 +81,17 @@ class PageDance {
     }
     if (this.#header && !this.over) this.#told.follow(audio);
     return shown;
+  }
+
+  /** Sets an element that stands before the dance to its first frame: there is nothing to wait for. Only once: elements round their times. */
+  #place(audio) {
+    if (!this.#header || this.#placed === audio) return;
+    this.#placed = audio;
+    if (audio.currentTime < this.#start()) audio.currentTime = this.#start();
+  }
+
+  #start() {
+    return this.#header.first_frame / this.#header.frame_rate;
   }
 
   soon() {
@@ -122,7 +135,7 @@ class PageDance {
     let failure;
     try {
       for await (const [event, data] of eventsOf(this.#url, { ...this.#options, signal: this.#stop.signal })) {
-        if (event === 'dance') begin((this.#header = data));
+        if (event === 'dance') this.#begin(data, begin);
         else if (event === 'frames') this.#take(data);
         else if (event === 'key') (this.#pending.delete(data.id), onKey?.(data));
         else if (event === 'warning') onWarning?.(data);
@@ -140,6 +153,12 @@ class PageDance {
     this.#worn?.end();
     if (failure) fail(failure);
     if (!this.#stop.signal.aborted) onEnd?.(failure);
+  }
+
+  #begin(header, begin) {
+    this.#header = header;
+    this.#seconds = Math.max(this.#seconds, this.#start());
+    begin(header);
   }
 
   #take({ first, places, turns }) {

@@ -4,7 +4,7 @@ import type { ChoreoClient, ChoreoError, DanceConfig, Resumed, StreamDanceReques
 
 /** What to dance. */
 export interface DanceOrder {
-  /** How long, at most an hour. */
+  /** Where it ends, at most an hour: how long it lasts, unless `config` begins it later, with a continuation or history.first_frame. */
   seconds: number;
   /**
    * The bytes of a WAV, FLAC, Ogg or MP3 file; or pieces of music while it sounds, `{ audio: { data } }`, of config.audio_format, as requests, among
@@ -44,7 +44,7 @@ export interface DanceHandler {
    * from request.body. Who may ask is for you to say, before this is called.
    *
    * - `GET /dance`: a new dance, as events; with the header Last-Event-ID the rest of that one, or 204 where it is gone.
-   *   `dance` {id, frame_rate, skeleton}; `frames` {first, places: 3 numbers a frame, turns: 4 a joint}; `key` {id, time} or {id, refused};
+   *   `dance` {id, frame_rate, first_frame, skeleton}; `frames` {first, places: 3 numbers a frame, turns: 4 a joint}; `key` {id, time} or {id, refused};
    *   `warning` {id, message}; `moved` {frame}: another server goes on; last `over` {frames} or `failed` {code, message, retry_after}.
    * - `POST /dance/ID/keys`: a key, as in a key file (docs/poses.md), {id, time, pose: 'kick'}, whose place may be 'here'; or {id, time, rotations: {head: [0, 0.4, 0]}}, which
    *   sets these joints alone. 202 with {id}, which a key without an id gets; a key that comes too late, or near another one, is refused by an event. The same id again moves a key.

@@ -3,8 +3,9 @@ import { invalid } from '../src/error.js';
 import { isObject, number } from '../src/fields.js';
 import { quoted } from '../src/words.js';
 
-/** Stands at 0 until the page has a frame. Then runs, `speed` times as fast as time, until the page tells where it plays; then as fast as time. */
+/** Stands where the dance begins until the page has a frame. Then runs, `speed` times as fast as time, until the page tells where it plays; then as fast as time. */
 export class PageClock {
+  #first = 0; // seconds: where the dance begins
   #at = 0; // seconds, at `since`
   #since; // milliseconds; undefined while it stands
   #speed;
@@ -15,7 +16,14 @@ export class PageClock {
   }
 
   get time() {
-    return this.#since === undefined ? this.#at : this.#at + (this.#speed * (performance.now() - this.#since)) / 1000;
+    const passed = this.#since === undefined ? 0 : (this.#speed * (performance.now() - this.#since)) / 1000;
+    return Math.max(this.#first, this.#at + passed);
+  }
+
+  /** The dance begins at `first` seconds. A page that plays from earlier on waits for nothing before. */
+  begin(first) {
+    this.#first = first;
+    if (!this.#isTold) this.#at = first;
   }
 
   /** The page has its first frame. A page that has told its time before knows better. */

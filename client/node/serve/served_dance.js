@@ -3,6 +3,7 @@ import { randomUUID } from 'node:crypto';
 import { EventEmitter, once } from 'node:events';
 import { setTimeout as sleep } from 'node:timers/promises';
 import { invalid } from '../src/error.js';
+import { firstOutputFrame } from '../src/header.js';
 import { PageClock } from './page_clock.js';
 import { Refusal, refusalOf } from './refusal.js';
 
@@ -147,13 +148,16 @@ export class ServedDance {
   #take({ header, frames, event, summary }) {
     if (header) {
       this.#shownRate = header.frame_rate;
-      this.#tell('dance', { id: this.id, frame_rate: header.frame_rate, skeleton: header.skeleton });
+      this.#clock.begin(Number(header.first_frame) / header.model_frame_rate);
+      const { frame_rate, skeleton } = header;
+      this.#tell('dance', { id: this.id, frame_rate, first_frame: firstOutputFrame(header), skeleton });
     }
     if (frames) {
       this.#frames += frames.count;
       const [x, , z] = frames.root_positions.slice(-3);
-      this.dancer = { here: [x, z], time: this.#frames / this.#shownRate };
-      this.#tell('frames', { first: Number(frames.first_frame), places: short(frames.root_positions), turns: short(frames.rotations) });
+      const first = Number(frames.first_frame);
+      this.dancer = { here: [x, z], time: (first + frames.count) / this.#shownRate };
+      this.#tell('frames', { first, places: short(frames.root_positions), turns: short(frames.rotations) });
     }
     if (event?.keyframe_reached) this.#tell('key', { id: event.keyframe_reached.id, time: event.time });
     if (event?.warning) this.warn(event.warning.keyframe_id, event.warning.message);
