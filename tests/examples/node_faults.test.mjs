@@ -1,6 +1,8 @@
 // What goes wrong between a page and its back end, and what each hears of it. $CHOREO_SERVER names a choreod.
 import assert from 'node:assert/strict';
+import { once } from 'node:events';
 import { mkdtemp, rm, writeFile } from 'node:fs/promises';
+import { Agent, request as httpRequest } from 'node:http';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { test } from 'node:test';
@@ -116,3 +118,23 @@ test('keys without an id get one each', () =>
       assert.deepEqual(reached, [[ids[0], 3], [ids[2], 4], [ids[1], 5]]);
     },
   ));
+
+test('a connection serves on after a key that is too long', () =>
+  withBackEnd(order, async ({ url }) => {
+    const agent = new Agent({ keepAlive: true, maxSockets: 1 });
+    const post = async (body) => {
+      const asked = httpRequest(`${url}/nobody/keys`, { method: 'POST', agent, headers: { 'Content-Length': body.length } }).end(body);
+      const [answer] = await once(asked, 'response');
+      for await (const _ of answer);
+      return [answer.statusCode, answer.req.reusedSocket];
+    };
+    try {
+      assert.deepEqual(await post('{}'), [404, false]);
+      for (const length of [70000, 3e6]) {
+        assert.deepEqual(await post('x'.repeat(length)), [413, true]);
+        assert.deepEqual(await post('{}'), [404, true]);
+      }
+    } finally {
+      agent.destroy();
+    }
+  }));

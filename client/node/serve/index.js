@@ -7,6 +7,7 @@ import { Refusal, refusalOf } from './refusal.js';
 import { ServedDance } from './served_dance.js';
 
 const mostBytes = 65536; // in a page's request
+const mostRead = 16 << 20; // of a longer one, so that the connection serves the next
 const untilBack = 0.5; // seconds until a browser reconnects
 const silence = 5; // seconds between signs of life, by which both sides notice a lost connection
 
@@ -150,11 +151,13 @@ class DanceServer {
 /** The page's JSON, or the body that a framework has parsed. */
 async function bodyOf(request) {
   if (request.body !== undefined) return request.body;
-  let text = '';
+  let [text, length] = ['', 0];
   for await (const piece of request.setEncoding('utf8')) {
-    text += piece;
-    if (text.length > mostBytes) throw new Refusal(413, `more than ${mostBytes} characters`);
+    length += piece.length;
+    if (length <= mostBytes) text += piece;
+    if (length > mostRead) break; // this closes the connection
   }
+  if (length > mostBytes) throw new Refusal(413, `more than ${mostBytes} characters`);
   try {
     return JSON.parse(text);
   } catch (error) {
