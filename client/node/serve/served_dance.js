@@ -161,7 +161,7 @@ export class ServedDance {
     }
     if (event?.keyframe_reached) this.#tell('key', { id: event.keyframe_reached.id, time: event.time });
     if (event?.warning) this.warn(event.warning.keyframe_id, event.warning.message);
-    if (summary) this.#tell('over', { frames: Number(summary.report.frames) });
+    if (summary) this.#tell('over', { frames: this.#frames });
   }
 
   /** The dance's requests, each when the page's clock comes near it. */
