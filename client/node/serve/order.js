@@ -21,11 +21,20 @@ export function requireOrder(order) {
   requirePositive('seconds', order.seconds);
   if (order.seconds > mostSeconds) throw invalid('seconds', `${order.seconds} s is more than an hour, ${mostSeconds} s`);
   requirePositive('speed', order.speed ?? 1);
-  if (typeof order.music === 'string') throw invalid('music', `${quoted(order.music)} is text; give the file's bytes, as readFile() does`);
+  requireMusic(order.music ?? []);
   const { config = {}, keys = [] } = order;
   checked('StreamDanceRequest', { config }, 'order');
   for (const [name, instead] of Object.entries(ownFields)) if (name in config) throw invalid(`config.${name}`, `is not yours to set: ${instead}`);
   requireKeys(keys);
+}
+
+/** Whether music is a file's bytes, and not requests. */
+export const isFile = (music) => ArrayBuffer.isView(music) || music instanceof ArrayBuffer;
+
+function requireMusic(music) {
+  if (typeof music === 'string') throw invalid('music', `${quoted(music)} is text; give the file's bytes, as readFile() does`);
+  if (isFile(music) || music[Symbol.iterator] || music[Symbol.asyncIterator]) return;
+  throw invalid('music', `${quoted(music)} is neither a file's bytes, as readFile() gives them, nor requests with music, one after the other`);
 }
 
 /** Requests before the dance begins. */

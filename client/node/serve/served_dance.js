@@ -4,6 +4,7 @@ import { EventEmitter, once } from 'node:events';
 import { setTimeout as sleep } from 'node:timers/promises';
 import { invalid } from '../src/error.js';
 import { firstOutputFrame } from '../src/header.js';
+import { isFile } from './order.js';
 import { PageClock } from './page_clock.js';
 import { Refusal, refusalOf } from './refusal.js';
 
@@ -167,7 +168,6 @@ export class ServedDance {
   /** The dance's requests, each when the page's clock comes near it. */
   async *#requests() {
     const { config = {}, seconds, music, keys = [], speed = 1 } = this.#order;
-    const isFile = ArrayBuffer.isView(music) || music instanceof ArrayBuffer;
     const rate = this.model.model_frame_rate;
     let granted = 0;
     const step = () => {
@@ -180,7 +180,7 @@ export class ServedDance {
     yield {
       config: {
         ...config,
-        ...(isFile && { audio_format: { encoding: 'AUDIO_ENCODING_FILE' } }),
+        ...(isFile(music) && { audio_format: { encoding: 'AUDIO_ENCODING_FILE' } }),
         frames: Math.round(seconds * rate),
         encoding: 'ROTATION_ENCODING_QUATERNION',
         generate_until: 0, // else each key would settle the frames up to itself
@@ -188,8 +188,8 @@ export class ServedDance {
       },
     };
     yield* keys;
-    if (isFile) yield* piecesOf(music);
-    for await (const request of isFile ? [] : (music ?? [])) {
+    if (isFile(music)) yield* piecesOf(music);
+    for await (const request of isFile(music) ? [] : (music ?? [])) {
       yield* step();
       yield request;
     }
