@@ -1,6 +1,7 @@
 // client/node/serve: what a back end may order, and what its page hears of it. $CHOREO_SERVER names a choreod.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
+import { serveDance } from '../../client/node/serve/index.js';
 import { withBackEnd } from './back_end.mjs';
 
 /** A dance's events, to its end: [event, data]. */
@@ -19,3 +20,25 @@ test('the end tells how many frames came, at the rate of the page', () =>
       assert.deepEqual(events.at(-1), ['over', { frames }]);
     },
   ));
+
+test('what serveDance() is given is checked before a page asks', () => {
+  const client = { info() {}, streamDance() {} };
+  const begin = () => ({ seconds: 2 });
+  for (const [given, message] of [
+    [[undefined, begin], 'client: undefined is not a ChoreoClient'],
+    [[{}, begin], 'client: {} is not a ChoreoClient'],
+    [[client], 'begin: undefined is not a function that says what to dance'],
+    [[client, begin, { awy: 5 }], 'awy: no option; did you mean away?'],
+    ...['dance', '/dance/', '/', '', '//dance', '/dance?', 5].map((path) => [[client, begin, { path }], /^path: .* is not a path such as '\/dance', without/]),
+    [[client, begin, { away: 'x' }], /^away: 'x' is not a number from 0 to 2147483\.647$/],
+    [[client, begin, { away: Infinity }], /^away: Infinity is not a number/],
+    [[client, begin, { keep: -1 }], 'keep: -1 is not a number from 0 to Infinity'],
+    [[client, begin, { behind: NaN }], 'behind: NaN is not a number from 0 to Infinity'],
+    [[client, begin, { onFailed: 'x' }], "onFailed: 'x' is not a function"],
+    [[client, begin, { onResume: 5 }], 'onResume: 5 is not a function'],
+  ]) {
+    assert.throws(() => serveDance(...given), { name: 'ChoreoError', code: 'INVALID_ARGUMENT', message });
+  }
+  const unset = { path: undefined, away: undefined, keep: Infinity, behind: 0, onFailed: null };
+  assert.equal(typeof serveDance(client, begin, unset), 'function');
+});

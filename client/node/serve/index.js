@@ -1,9 +1,8 @@
 // The routes with which pages watch and change dances. For their answers see index.d.ts.
-import { invalid } from '../src/error.js';
-import { hint } from '../src/words.js';
 import { editsOf } from './edits.js';
 import { requireOrder } from './order.js';
 import { Refusal, refusalOf } from './refusal.js';
+import { checkServe } from './serve_options.js';
 import { ServedDance } from './served_dance.js';
 
 const mostBytes = 65536; // in a page's request
@@ -11,14 +10,9 @@ const mostRead = 16 << 20; // of a longer one, so that the connection serves the
 const untilBack = 0.5; // seconds until a browser reconnects
 const silence = 5; // seconds between signs of life, by which both sides notice a lost connection
 
-const onFailed = (error) => console.error('serveDance:', error);
-const defaults = { path: '/dance', away: 5, keep: 8 << 20, behind: 10, onResume: undefined, onFailed };
-
 /** See index.d.ts. */
 export function serveDance(client, begin, given = {}) {
-  for (const name of Object.keys(given)) if (!Object.hasOwn(defaults, name)) throw invalid(name, `no option; ${hint(name, Object.keys(defaults))}`);
-  if (typeof begin !== 'function') throw invalid('begin', `${begin} is not a function that says what to dance`);
-  const server = new DanceServer(client, begin, { ...defaults, ...given, onFailed: given.onFailed ?? onFailed });
+  const server = new DanceServer(client, begin, checkServe(client, begin, given));
   return Object.assign((request, response) => server.answer(request, response), { close: () => server.close() });
 }
 

@@ -12,6 +12,12 @@ const ownFields = {
   generate_until: "the page's clock says it",
   reject_invalid_keys: 'it is always true',
 };
+/** Requests that serveDance() sends itself, and what to do instead. */
+const ownRequests = {
+  config: "it is the order's config",
+  generate_until: ownFields.generate_until,
+  keyframes_complete: 'it comes at the end',
+};
 const mostSeconds = 3600; // of a dance: 108 000 frames
 
 /** Throws ChoreoError, which names the field, for an invalid order. */
@@ -46,6 +52,7 @@ function requireKeys(keys) {
     } catch ({ violations: [{ field, description }] }) {
       throw invalid(`keys[${at}]${field && `.${field}`}`, description);
     }
+    for (const [name, instead] of Object.entries(ownRequests)) if (key[name]) throw invalid(`keys[${at}].${name}`, `is not yours to say: ${instead}`);
   });
 }
 

@@ -1,0 +1,41 @@
+// Checks what serveDance() is given. For the options see index.d.ts.
+import { invalid } from '../src/error.js';
+import { hint, quoted } from '../src/words.js';
+
+const mostAway = (2 ** 31 - 1) / 1000; // seconds: a timer of Node.js takes no more
+
+const onFailed = (error) => console.error('serveDance:', error);
+const defaults = { path: '/dance', away: 5, keep: 8 << 20, behind: 10, onResume: undefined, onFailed };
+
+function numberTo(most, name, value) {
+  if (!(typeof value === 'number' && value >= 0 && value <= most)) throw invalid(name, `${quoted(value)} is not a number from 0 to ${most}`);
+}
+
+function aFunction(name, value) {
+  if (typeof value !== 'function') throw invalid(name, `${quoted(value)} is not a function`);
+}
+
+const checks = {
+  path: (name, value) => {
+    if (typeof value !== 'string' || !/^(\/[^/?#]+)+$/.test(value)) throw invalid(name, `${quoted(value)} is not a path such as '/dance', without a / at its end`);
+  },
+  away: (...given) => numberTo(mostAway, ...given),
+  keep: (...given) => numberTo(Infinity, ...given),
+  behind: (...given) => numberTo(Infinity, ...given),
+  onResume: aFunction,
+  onFailed: aFunction,
+};
+
+/** Returns the options, with their defaults. Throws ChoreoError, which names what is unusable. */
+export function checkServe(client, begin, given) {
+  if (typeof client?.streamDance !== 'function' || typeof client.info !== 'function') throw invalid('client', `${quoted(client)} is not a ChoreoClient`);
+  if (typeof begin !== 'function') throw invalid('begin', `${quoted(begin)} is not a function that says what to dance`);
+  const options = { ...defaults };
+  for (const [name, value] of Object.entries(given)) {
+    if (!Object.hasOwn(defaults, name)) throw invalid(name, `no option; ${hint(name, Object.keys(defaults))}`);
+    if (value === undefined || value === null) continue;
+    checks[name](name, value);
+    options[name] = value;
+  }
+  return options;
+}
