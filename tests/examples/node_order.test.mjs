@@ -42,3 +42,25 @@ test('what serveDance() is given is checked before a page asks', () => {
   const unset = { path: undefined, away: undefined, keep: Infinity, behind: 0, onFailed: null };
   assert.equal(typeof serveDance(client, begin, unset), 'function');
 });
+
+test("a page hears the code and the field of what is wrong in its dance, and no more than INTERNAL of what is the back end's", async () => {
+  const wrong = {
+    model: [{ seconds: 2, config: { model: 'x' } }, 'NOT_FOUND', 'config.model: no model "x"; this server has "fake"'],
+    style: [{ seconds: 2, config: { style: 'waltz' } }, 'INVALID_ARGUMENT', 'config.style: "waltz" is not a style of the model fake; it has calm, wild'],
+    continuation: [{ seconds: 2, config: { continuation: {} } }, 'FAILED_PRECONDITION', 'config.continuation.skeleton: "" is not the model\'s, "smpl24"'],
+    music: [{ seconds: 2, music: (function* () { throw new Error('no line in'); })() }, 'INTERNAL', 'this went wrong here'],
+  };
+  const failures = [];
+  await withBackEnd(
+    ({ searchParams }) => wrong[searchParams.get('wrong')][0],
+    async ({ url }) => {
+      for (const [name, [, code, message]] of Object.entries(wrong)) {
+        const events = await eventsOf(`${url}?wrong=${name}`);
+        assert.deepEqual(events.at(-1), ['failed', { code, message }]);
+      }
+    },
+    { onFailed: (error) => failures.push(error.message) },
+  );
+  const heard = Object.values(wrong).map(([, code, message]) => (code === 'INTERNAL' ? 'no line in' : `requests[0].${message}`));
+  assert.deepEqual(failures, heard);
+});

@@ -40,8 +40,9 @@ export interface ServeOptions {
 export interface DanceHandler {
   /**
    * Answers requests below `path`; false, with the response untouched, for all others. It never rejects: what it refuses has a status, its words as
-   * text, and the header Choreo-Code where gRPC has a code for it. A body that a framework has parsed is taken
-   * from request.body. Who may ask is for you to say, before this is called.
+   * text, and the header Choreo-Code where gRPC has a code for it. A page hears gRPC's code and the words where they name a field of the dance or of
+   * its request, UNAVAILABLE or RESOURCE_EXHAUSTED where no server is free, and INTERNAL for all else, which onFailed hears in full. A body that a
+   * framework has parsed is taken from request.body. Who may ask is for you to say, before this is called.
    *
    * - `GET /dance`: a new dance, as events; with the header Last-Event-ID the rest of that one, or 204 where it is gone.
    *   `dance` {id, frame_rate, first_frame, skeleton}; `frames` {first, places: 3 numbers a frame, turns: 4 a joint}; `key` {id, time} or {id, refused};

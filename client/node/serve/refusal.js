@@ -10,15 +10,20 @@ export class Refusal extends Error {
   }
 }
 
+/** The field of a server's error that names servers, which pages need not know. */
+const ofServers = 'config.continuation.fingerprint';
+
 /**
- * Converts an error for a page: errors in its request in full, errors of the back end, such as a token that the server refuses, without details.
- * Errors with a `status` are the back end's own words for pages.
+ * Converts an error for a page. An error that names a field of the dance or of the page's request keeps its code and words. All others, such as a
+ * token that the server refuses, are the back end's: INTERNAL, without details. Errors with a `status` are the back end's own words for pages.
  */
 export function refusalOf(error) {
   if (error.status >= 400 && error.status < 600) return error;
   const { code, message, retryAfter } = error;
   if (error instanceof URIError) return new Refusal(400, message);
-  if (code === 'INVALID_ARGUMENT' && !isOfOptions(error)) return new Refusal(400, message, code);
   if (code === 'RESOURCE_EXHAUSTED' || code === 'UNAVAILABLE') return new Refusal(503, 'no server is free now; try again', code, retryAfter);
+  const [fault] = error.violations ?? [];
+  // Without the number of the back end's request.
+  if (fault && fault.field !== ofServers && !isOfOptions(error)) return new Refusal(400, `${fault.field}: ${fault.description}`, code);
   return new Refusal(500, 'this went wrong here', 'INTERNAL');
 }
