@@ -48,6 +48,8 @@ test("a page hears the code and the field of what is wrong in its dance, and no 
     model: [{ seconds: 2, config: { model: 'x' } }, 'NOT_FOUND', 'config.model: no model "x"; this server has "fake"'],
     style: [{ seconds: 2, config: { style: 'waltz' } }, 'INVALID_ARGUMENT', 'config.style: "waltz" is not a style of the model fake; it has calm, wild'],
     continuation: [{ seconds: 2, config: { continuation: {} } }, 'FAILED_PRECONDITION', 'config.continuation.skeleton: "" is not the model\'s, "smpl24"'],
+    short: [{ seconds: 0.001 }, 'INVALID_ARGUMENT', 'seconds: 0.001 s leaves no frame to dance: the dance begins at 0 s'],
+    past: [{ seconds: 1, config: { history: { poses: [{}], first_frame: '60' } } }, 'INVALID_ARGUMENT', 'seconds: 1 s leaves no frame to dance: the dance begins at 2 s'],
     music: [{ seconds: 2, music: (function* () { throw new Error('no line in'); })() }, 'INTERNAL', 'this went wrong here'],
   };
   const failures = [];
@@ -61,6 +63,6 @@ test("a page hears the code and the field of what is wrong in its dance, and no 
     },
     { onFailed: (error) => failures.push(error.message) },
   );
-  const heard = Object.values(wrong).map(([, code, message]) => (code === 'INTERNAL' ? 'no line in' : `requests[0].${message}`));
+  const heard = Object.values(wrong).map(([, code, message]) => (code === 'INTERNAL' ? 'no line in' : message.replace(/^config/, 'requests[0].$&')));
   assert.deepEqual(failures, heard);
 });

@@ -169,19 +169,22 @@ export class ServedDance {
   async *#requests() {
     const { config = {}, seconds, music, keys = [], speed = 1 } = this.#order;
     const rate = this.model.model_frame_rate;
+    const end = Math.round(seconds * rate);
+    const first = Number(config.continuation?.frame ?? config.history?.first_frame ?? 0);
+    if (end <= first) throw invalid('seconds', `${seconds} s leaves no frame to dance: the dance begins at ${first / rate} s`);
     let granted = 0;
     const step = () => {
       // A page that does not keep up is waited for.
       const waits = this.watchers > 0 && this.#frames - this.#taken > this.#options.behind * this.#shownRate;
       // What is settled stays so when a page goes back.
-      if (!waits) granted = Math.max(granted, Math.min(Math.round((this.#clock.time + lead) * rate), Math.round(seconds * rate)));
+      if (!waits) granted = Math.max(granted, Math.min(Math.round((this.#clock.time + lead) * rate), end));
       return [...this.#edits.splice(0), { generate_until: { frame: granted } }];
     };
     yield {
       config: {
         ...config,
         ...(isFile(music) && { audio_format: { encoding: 'AUDIO_ENCODING_FILE' } }),
-        frames: Math.round(seconds * rate),
+        frames: end,
         encoding: 'ROTATION_ENCODING_QUATERNION',
         generate_until: 0, // else each key would settle the frames up to itself
         reject_invalid_keys: true,
@@ -194,7 +197,7 @@ export class ServedDance {
       yield request;
     }
     if (music) yield { end_of_audio: {} };
-    while (granted < Math.round(seconds * rate)) {
+    while (granted < end) {
       yield* step();
       await sleep((1000 * tick) / speed);
     }
