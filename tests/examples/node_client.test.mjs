@@ -9,6 +9,7 @@ import { test } from 'node:test';
 import { setTimeout as sleep } from 'node:timers/promises';
 import { ChoreoClient, pose } from '../../client/node/src/index.js';
 import { noAnswer } from '../../client/node/src/connect_faults.js';
+import { firstOutputFrame } from '../../client/node/src/header.js';
 import { Journal } from '../../client/node/src/journal.js';
 import { Patience } from '../../client/node/src/replicas.js';
 import { clicks, live, pcm } from '../../examples/node/music.js';
@@ -293,6 +294,8 @@ for (const frame_rate of [30, 50]) {
     assert.deepEqual(told(answers), told(whole));
   });
 }
+
+test('the first frame of a dance is 0, and not -0', () => assert.equal(firstOutputFrame({ first_frame: '0', frame_rate: 30, model_frame_rate: 30 }), 0));
 
 test('a dance whose server is killed before its first continuation goes on, too', async () => {
   const { answers, resumes } = await danceAndKill(unkeyed, (all) => all.at(-1).frames);

@@ -4,7 +4,7 @@ import { ChoreoError } from './error.js';
 
 /** The first output frame at or after the first frame. */
 export function firstOutputFrame({ first_frame, frame_rate, model_frame_rate }) {
-  return Math.ceil((Number(first_frame) * frame_rate) / model_frame_rate - 1e-9);
+  return Math.max(0, Math.ceil((Number(first_frame) * frame_rate) / model_frame_rate - 1e-9)); // and no -0
 }
 
 /**
