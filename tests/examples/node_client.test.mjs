@@ -145,6 +145,7 @@ test('options that cannot be used are named', () =>
       [far, { retry: -1 }, 'retry: -1 is not a finite number >= 0'],
       [far, { tls: 'yes' }, "tls: 'yes' is not a boolean"],
       [far, { token_file: 'x' }, 'token_file: no option; did you mean tokenFile?'],
+      [far, { tsl: true }, 'tsl: no option; did you mean tls?'],
       [far, { patience: 1 }, /^patience: no option; there are tls, caCertificate, /],
       ['http://one:50051', {}, 'addresses: http://one:50051 is a URL; use HOST:PORT, and the option tls for TLS'],
       ['dns:///one', {}, 'addresses: dns:///one has no port; use HOST:PORT'],

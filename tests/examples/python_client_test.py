@@ -234,6 +234,8 @@ class ClientTest(unittest.TestCase):
                 (far, {"tls": True, "ca_certificate": own_key.read_text()}, "ca_certificate: the text holds no certificate in PEM"),
                 (far, {"tls": True, "client_certificate": own.read_text(), "client_key": authority.key.read_text()}, "client_key: the text is not the key of the text"),
                 (far, {"retry_s": "long"}, "retry_s: a str is not a number$"),
+                (far, {"tsl": True}, r"tsl: no option; did you mean tls\?$"),
+                (far, {"patience": 1}, "patience: no option; there are tls, ca_certificate, "),
                 (far, {"tls": "yes"}, "tls: a str is not a bool$"),
                 (far, {"retry_s": -1}, "retry_s: -1 is not a finite number >= 0$"),
             ):

@@ -6,6 +6,8 @@ export const quoted = (value) => inspect(value, { depth: 0, breakLength: Infinit
 
 const plain = (name) => name.toLowerCase().replace(/[^a-z0-9]/g, '');
 
+const sorted = (name) => [...name].sort().join('');
+
 /** The number of letters to change, add or remove to turn `a` into `b`. */
 function distance(a, b) {
   let row = Array.from({ length: b.length + 1 }, (_, at) => at);
@@ -25,6 +27,7 @@ export function hint(name, names) {
   const found =
     names.find((one) => plain(one) === asked) ??
     names.find((one) => asked.length > 2 && plain(one).endsWith(asked)) ??
+    names.find((one) => sorted(plain(one)) === sorted(asked)) ?? // swapped letters
     names.find((one) => distance(plain(one), asked) <= Math.max(1, Math.floor(asked.length / 4)));
   return found ? `did you mean ${found}?` : `there are ${names.join(', ')}`;
 }

@@ -7,7 +7,7 @@ from . import choreography
 from ._dance import Resumed, dance
 from ._errors import invalid
 from ._from_loop import FromLoop
-from ._options import Options
+from ._options import options_of
 from ._replicas import Cancellation, Replicas
 from ._transition import transition
 
@@ -51,7 +51,7 @@ class Answers(typing.Generic[Answer]):
 class Client:
     """A client of one server or of several replicas. It connects when needed. If a server is lost, is full, or refuses a model or fingerprint,
     the call is retried at the next address. Thread-safe; create clients after forking, not before. Calls block. Every failure is a ChoreoError,
-    except that exceptions of `requests`, `on_resume` and `on_rejected` are passed on unchanged, and an unknown option is a TypeError.
+    except that exceptions of `requests`, `on_resume` and `on_rejected` are passed on unchanged.
 
     `addresses`: HOST:PORT, unix:PATH, or a list of replicas: if one fails, the next is tried. Calls are distributed in turn over the addresses
     of one name (dns:///NAME:PORT) or one list (ipv4:A:PORT,B:PORT). Addresses whose health is not serving are skipped, unless
@@ -61,7 +61,7 @@ class Client:
     def __init__(self, addresses: typing.Union[str, typing.Iterable[str]], **options: typing.Any) -> None:
         if not hasattr(addresses, "__iter__"):
             raise invalid("addresses", f"{addresses!r} is neither HOST:PORT nor a list of them")
-        self._replicas = Replicas([addresses] if isinstance(addresses, str) else list(addresses), Options(**options))
+        self._replicas = Replicas([addresses] if isinstance(addresses, str) else list(addresses), options_of(options))
 
     def close(self) -> None:
         """Ends all calls in progress with CANCELLED, and refuses further calls."""

@@ -15,6 +15,7 @@ import grpc
 
 from ._errors import invalid
 from ._pem import content_of, file_of, name_of, read
+from ._words import hint
 
 LEAST_SILENCE = 2  # seconds
 MOST_PORT = 65535
@@ -138,6 +139,15 @@ class Options:
             half = round(500 * min(self.silence_s, 1e6))
             options |= {"grpc.keepalive_time_ms": half, "grpc.keepalive_timeout_ms": half, "grpc.http2.max_pings_without_data": 0}
         return list(options.items())
+
+
+def options_of(given):
+    """Makes Options from {name: value}. Raises ChoreoError for unknown names."""
+    names = [field.name for field in dataclasses.fields(Options)]
+    for name in given:
+        if name not in names:
+            raise invalid(name, f"no option; {hint(name, names)}")
+    return Options(**given)
 
 
 _PATH = ((str, os.PathLike), "path")
