@@ -3,11 +3,17 @@ import grpc from '@grpc/grpc-js';
 import { asSent } from './as_sent.js';
 import { rpc } from './protos.js';
 
+/** What went wrong, in words. gRPC's own of a deadline say how it spent the time, for those who know its parts. */
+function wordsOf({ details, message }) {
+  if (/^Deadline exceeded/.test(details)) return 'the deadline passed before the end of the call';
+  return details || message || 'the server failed without saying why';
+}
+
 /** A failed call: a `code` such as 'INVALID_ARGUMENT', the server's message, and the fields that it names. */
 export class ChoreoError extends Error {
   /** `failure`: {code, details}, from gRPC or this package. */
   constructor(failure, violations = []) {
-    super(failure.details || failure.message || 'the server failed without saying why');
+    super(wordsOf(failure));
     this.name = 'ChoreoError';
     this.code = grpc.status[failure.code] ?? 'UNKNOWN';
     /** [{field: 'keyframe.pose.rotations', description: '69 numbers are 23 joints; ...', keyframeId: 'arms up'}] */
