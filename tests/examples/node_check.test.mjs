@@ -46,16 +46,19 @@ test('a request that the API does not know is refused by its path', () =>
       [keyframe({ pose: { rotations: new DataView(new ArrayBuffer(8)) } }), 'keyframe.pose.rotations', /is not an array$/],
       [keyframe({ pose: { rotations: new Float32Array([0, NaN]) } }), 'keyframe.pose.rotations[1]', 'NaN is not a finite number'],
       [keyframe({ pose: { rotations: 'none' } }), 'keyframe.pose.rotations', "'none' is not an array"],
-      [keyframe({ mask: { joints: ['head'] } }), 'keyframe.mask.joints[0]', "'head' is not a whole number from -2147483648 to 2147483647"],
+      [keyframe({ mask: { joints: ['head'] } }), 'keyframe.mask.joints[0]', "'head' is not a whole number"],
       [keyframe({ time: '6' }), 'keyframe.time', "'6' is not a finite number"],
       [keyframe({ hit: '1' }), 'keyframe.hit', "'1' is not a finite number"],
       [keyframe({ pose: { rotations: ['0'] } }), 'keyframe.pose.rotations[0]', "'0' is not a finite number"],
-      [keyframe({ mask: { joints: ['1'] } }), 'keyframe.mask.joints[0]', "'1' is not a whole number from -2147483648 to 2147483647"],
+      [keyframe({ mask: { joints: ['1'] } }), 'keyframe.mask.joints[0]', "'1' is not a whole number"],
       [keyframe({ id: 5 }), 'keyframe.id', '5 is not a string'],
       [keyframe({ frame: 3 }), 'keyframe.frame', 'given beside time; there is one of frame, time, interval_after_previous'],
       [[{ config: {}, end_of_audio: {} }], 'end_of_audio', /^given beside config; there is one of config, audio, /],
       [[{ config: { allow_inexact_resume: 'no' } }], 'config.allow_inexact_resume', "'no' is not a boolean"],
-      ...[1.5, -1, '1e3', '18446744073709551616', true, []].map((seed) => [[{ config: { seed } }], 'config.seed', / is not a whole number from 0 to 18\d+$/]),
+      ...[1.5, '1e3', true, []].map((seed) => [[{ config: { seed } }], 'config.seed', / is not a whole number$/]),
+      [[{ config: { seed: -1 } }], 'config.seed', '-1 is less than 0'],
+      [[{ config: { seed: '18446744073709551616' } }], 'config.seed', "'18446744073709551616' is more than 18446744073709551615"],
+      [[{ config: { frames: 1.5 } }], 'config.frames', '1.5 is not a whole number'],
       [[{ config: { seed: 2 ** 64 } }], 'config.seed', /; numbers above 2\^53 go as text$/],
       [[config, { keyframe: null }], 'keyframe', /^null is not a Keyframe, /],
       [[config, { remove_keyframe: undefined }], 'remove_keyframe', /^undefined is not a RemoveKeyframe, /],
@@ -80,6 +83,7 @@ test('a request that the API does not know is refused by its path', () =>
     }
     const ranked = collect(client.generateTransition({ config: {}, frames: 9, rank_by: 'LIKELIHOOD' }));
     await assert.rejects(ranked, { message: "rank_by: 'LIKELIHOOD' is not a RankBy; did you mean RANK_BY_LIKELIHOOD?" });
+    await assert.rejects(collect(client.generateTransition({ frames: 9, candidates: -1 })), { message: 'candidates: -1 is less than 0' });
     await assert.rejects(collect(client.generateTransition()), { message: /^request: undefined is not a GenerateTransitionRequest/ });
   }));
 

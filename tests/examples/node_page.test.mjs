@@ -211,7 +211,7 @@ test('the back end hears of its wrong orders, and by default so does its console
     frames: [{ ...silent, config: { frames: 90 } }, 'config.frames: is not yours to set: say seconds'],
     turns: [{ ...silent, config: { encoding: 'ROTATION_ENCODING_MATRIX' } }, 'config.encoding: is not yours to set: pages get quaternions'],
     until: [{ ...silent, config: { generate_until: 90 } }, "config.generate_until: is not yours to set: the page's clock says it"],
-    seed: [{ ...silent, config: { seed: 'abc' } }, "config.seed: 'abc' is not a whole number from 0 to 18446744073709551615"],
+    seed: [{ ...silent, config: { seed: 'abc' } }, "config.seed: 'abc' is not a whole number"],
   };
   const begin = ({ searchParams }) => {
     const name = searchParams.get('wrong');
@@ -254,7 +254,7 @@ test('what a page may not have is refused, with a status', () =>
         return [answer.status, (await answer.text()).trim()];
       };
       assert.deepEqual(await status(`${url}?stranger`), [401, 'log in first']);
-      assert.deepEqual(await status(`${url}?seed=x`), [400, "config.seed: 'x' is not a whole number from 0 to 18446744073709551615"]);
+      assert.deepEqual(await status(`${url}?seed=x`), [400, "config.seed: 'x' is not a whole number"]);
       const refused = (promise) => promise.then(assert.fail, ({ status, code, message }) => [status, code, message.slice(0, 12)]);
       assert.deepEqual(await refused(connectDance(`${url}?stranger`).begun), [401, undefined, 'log in first']);
       assert.deepEqual(await refused(connectDance(`${url}?seed=x`).begun), [400, 'INVALID_ARGUMENT', 'config.seed:']);

@@ -63,11 +63,13 @@ class CheckTest(unittest.TestCase):
             (keyframe(pose={"rotations": "none"}), "keyframe.pose.rotations", "'none' is not a list$"),
             (keyframe(pose={"rotations": 5}), "keyframe.pose.rotations", "5 is not a list$"),
             (keyframe(pose={"rotations": [[0, 0, 0]]}), "keyframe.pose.rotations[0]", r"\[0, 0, 0\] is not a number; rotations is one flat list: give "),
-            (keyframe(mask={"joints": ["head"]}), "keyframe.mask.joints[0]", "'head' is not a whole number from -2147483648 to 2147483647$"),
+            (keyframe(mask={"joints": ["head"]}), "keyframe.mask.joints[0]", "'head' is not a whole number$"),
             (keyframe(id=5), "keyframe.id", "5 is not a str$"),
             (keyframe(frame=3), "keyframe.frame", "given beside time; there is one of frame, time, interval_after_previous$"),
             ([{"config": {"allow_inexact_resume": "no"}}], "config.allow_inexact_resume", "'no' is not a bool$"),
-            *(([{"config": {"seed": seed}}], "config.seed", ".* is not a whole number from 0 to 18446744073709551615$") for seed in (1.5, -1, 2**64, "7x")),
+            *(([{"config": {"seed": seed}}], "config.seed", ".* is not a whole number$") for seed in (1.5, "7x")),
+            ([{"config": {"seed": -1}}], "config.seed", "-1 is less than 0$"),
+            ([{"config": {"seed": 2**64}}], "config.seed", ".* is more than 18446744073709551615$"),
             ([CONFIG, {"keyframe": None}], "keyframe", "None is not a Keyframe, "),
             ([CONFIG, {"remove_keyframe": None}], "remove_keyframe", "None is not a RemoveKeyframe, "),
             ([CONFIG, None], "requests[1]", "None is not a StreamDanceRequest, {config, audio, "),
@@ -364,8 +366,9 @@ print(api_implementation.Type())
         self.assertIsInstance(kept["seed"], str)
         again = self.client.stream_dance([{"config": {"frames": 90, "continuation": kept}}, *rest])
         self.assertEqual([number for answer in again for number in answer.frames.rotations], whole[len(whole) * continuation.frame // 90 :])
-        for text in ("12.5", "", "ten", "18446744073709551616"):
+        for text in ("12.5", "", "ten"):
             self.assert_refused(f"config.seed: '{text}' is not a whole number", self.dance, {"config": {"seed": text}})
+        self.assert_refused("config.seed: '18446744073709551616' is more than", self.dance, {"config": {"seed": "18446744073709551616"}})
 
     def test_public_functions_say_what_they_take_and_give(self):
         public = [aio.stream, pose]

@@ -103,8 +103,10 @@ function whole(type, value, path) {
   const isText = most > 2n ** 32n && typeof value === 'string' && /^-?\d+$/.test(value);
   const number = Number.isSafeInteger(value) || typeof value === 'bigint' || isText || isLong ? BigInt(String(value)) : undefined;
   if (number >= least && number <= most) return typeof value === 'number' ? value : String(value);
-  const asText = Number.isInteger(value) && number === undefined ? '; numbers above 2^53 go as text' : '';
-  throw invalid(path, `${quoted(value)} is not a whole number from ${least} to ${most}${asText}`);
+  // The server knows the field's own limits, which are narrower than those of its type.
+  if (number < least) throw invalid(path, `${quoted(value)} is less than ${least}`);
+  if (number > most) throw invalid(path, `${quoted(value)} is more than ${most}`);
+  throw invalid(path, `${quoted(value)} is not a whole number${Number.isInteger(value) ? '; numbers above 2^53 go as text' : ''}`);
 }
 
 function bytes(value, path, encoding) {

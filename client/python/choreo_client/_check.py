@@ -127,8 +127,11 @@ def _whole(value, path, least, most):
         number = operator.index(int(value) if is_text else value)
     except TypeError:
         number = None
-    if number is None or isinstance(value, bool) or not least <= number <= most:
-        raise invalid(path, f"{quoted(value)} is not a whole number from {least} to {most}")
+    if number is None or isinstance(value, bool):
+        raise invalid(path, f"{quoted(value)} is not a whole number")
+    # The server knows the field's own limits, which are narrower than those of its type.
+    if not least <= number <= most:
+        raise invalid(path, f"{quoted(value)} is {f'less than {least}' if number < least else f'more than {most}'}")
     return number
 
 
