@@ -3,7 +3,7 @@ import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { setTimeout as sleep } from 'node:timers/promises';
 import { connectDance } from '../../client/node/page/index.js';
-import { ChoreoClient, pose } from '../../client/node/src/index.js';
+import { pose } from '../../client/node/src/index.js';
 import { withBackEnd } from './back_end.mjs';
 
 const order = () => ({ seconds: 30, config: { seed: '7' } });
@@ -148,15 +148,22 @@ test("a page that wears nothing shows SMPL's own joints", () =>
 
 /** Configurations of dances that begin later, and their first frames. */
 async function laterStarts() {
-  const client = new ChoreoClient(process.env.CHOREO_SERVER);
-  try {
-    const poses = [{ ...pose((await client.info()).models[0].skeleton), root_position: { x: 0, y: 1, z: 0 } }];
-    let kept;
-    for await (const { continuation } of client.streamDance([{ config: { seed: '1', frames: '150' } }])) if (Number(continuation?.frame) > 30) kept ??= continuation;
-    return [[Number(kept.frame), { continuation: JSON.parse(JSON.stringify(kept)) }], [60, { history: { poses, first_frame: '60' } }]];
-  } finally {
-    client.close();
-  }
+  const kept = [];
+  const onContinuation = (continuation, id) => kept.push([id, JSON.stringify(continuation)]);
+  let poses;
+  await withBackEnd(
+    () => ({ seconds: 4, speed: 4, config: { seed: '1' } }),
+    async ({ url, client }) => {
+      poses = [{ ...pose((await client.info()).models[0].skeleton), root_position: { x: 0, y: 1, z: 0 } }];
+      const page = connectDance(url);
+      const { id } = await page.begun;
+      while (!page.over) await sleep(10);
+      assert.ok(kept.every(([of]) => of === id));
+    },
+    { onContinuation },
+  );
+  const continuation = kept.map(([, text]) => JSON.parse(text)).find(({ frame }) => frame > 30);
+  return [[Number(continuation.frame), { continuation }], [60, { history: { poses, first_frame: '60' } }]];
 }
 
 test('a dance that goes on from a continuation, or from later poses, plays from its first frame on', async () => {

@@ -1,6 +1,6 @@
 // For back ends: dances for web pages, over HTTP, as server-sent events. `connectDance` of choreo-client/page reads them.
 import type { IncomingMessage, ServerResponse } from 'node:http';
-import type { ChoreoClient, ChoreoError, DanceConfig, Resumed, StreamDanceRequest } from '../src/index.js';
+import type { ChoreoClient, ChoreoError, Continuation, DanceConfig, Resumed, StreamDanceRequest } from '../src/index.js';
 
 /** What to dance. */
 export interface DanceOrder {
@@ -31,6 +31,8 @@ export interface ServeOptions {
    * minutes of a dance: so this bounds what Node.js keeps. A page that follow()s tells when it pauses because frames are late.
    */
   behind?: number;
+  /** Where the dance `id` may go on later, as config.continuation of another order: also kept as JSON. The newest replaces earlier ones. */
+  onContinuation?: (continuation: Continuation, id: string) => void;
   /** A dance went on at another server. Pages hear no addresses. */
   onResume?: (resumed: Resumed) => void;
   /** A dance failed or, by a wrong order, did not begin; its page has been told. By default console.error says so. */

@@ -5,7 +5,7 @@ import { hint, quoted } from '../src/words.js';
 const mostAway = (2 ** 31 - 1) / 1000; // seconds: a timer of Node.js takes no more
 
 const onFailed = (error) => console.error('serveDance:', error);
-const defaults = { path: '/dance', away: 5, keep: 8 << 20, behind: 10, onResume: undefined, onFailed };
+const defaults = { path: '/dance', away: 5, keep: 8 << 20, behind: 10, onContinuation: undefined, onResume: undefined, onFailed };
 
 function numberTo(most, name, value) {
   if (!(typeof value === 'number' && value >= 0 && value <= most)) throw invalid(name, `${quoted(value)} is not a number from 0 to ${most}`);
@@ -22,6 +22,7 @@ const checks = {
   away: (...given) => numberTo(mostAway, ...given),
   keep: (...given) => numberTo(Infinity, ...given),
   behind: (...given) => numberTo(Infinity, ...given),
+  onContinuation: aFunction,
   onResume: aFunction,
   onFailed: aFunction,
 };

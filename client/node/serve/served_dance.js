@@ -146,7 +146,7 @@ export class ServedDance {
     return field.replace('keyframe.pose.root_position', 'place').replace('keyframe.mask', 'rotations').replace(/^keyframe\./, '');
   }
 
-  #take({ header, frames, event, summary }) {
+  #take({ header, frames, event, continuation, summary }) {
     if (header) {
       this.#shownRate = header.frame_rate;
       this.#clock.begin(Number(header.first_frame) / header.model_frame_rate);
@@ -162,6 +162,7 @@ export class ServedDance {
     }
     if (event?.keyframe_reached) this.#tell('key', { id: event.keyframe_reached.id, time: event.time });
     if (event?.warning) this.warn(event.warning.keyframe_id, event.warning.message);
+    if (continuation) this.#options.onContinuation?.(continuation, this.id);
     if (summary) this.#tell('over', { frames: this.#frames });
   }
 
