@@ -69,7 +69,7 @@ test('a token is sent, read again for each call, and a wrong one refused', () =>
   }));
 
 test('what pages tell of the music is danced to', async () => {
-  for (const name of ['client/node/README.md', 'docs/web.md', 'docs/api.md']) {
+  for (const name of ['client/node/README.md', 'docs/api.md']) {
     const page = await readFile(new URL(`../../${name}`, import.meta.url), 'utf8');
     const [, told] = /(\{ ?"?music_dynamics[^\]]+\][^\]]+\][^\]]+\] ?\})/.exec(page);
     const heard = Function(`return ${told}`)();

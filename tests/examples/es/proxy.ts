@@ -1,7 +1,9 @@
 // gRPC-Web in front of a choreod, for pages, where there is no Envoy:
-//   npm install @bufbuild/protobuf @connectrpc/connect @connectrpc/connect-node
+//   npm install typescript @types/node @bufbuild/protobuf @connectrpc/connect @connectrpc/connect-node
 //
-//   proxy('http://127.0.0.1:50051').listen(8081);
+// Beside it go the messages, gen/, which docs/programs.md generates, and a package.json with "type": "module":
+//   npx tsc --module nodenext --target es2022 --skipLibCheck proxy.ts
+//   node -e "import('./proxy.js').then(({ proxy }) => proxy('http://127.0.0.1:50051').listen(8081))"
 import { createServer, type Server } from 'node:http';
 import { cors, createClient } from '@connectrpc/connect';
 import { connectNodeAdapter, createGrpcTransport } from '@connectrpc/connect-node';
