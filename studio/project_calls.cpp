@@ -147,6 +147,7 @@ ProjectCalls::Reply ProjectCalls::Danced(const std::string& text, bool as_bvh) c
   json file = authoring::ParseJson(text, kUnnamed);
   authoring::Project project = authoring::ParseProject(file, kUnnamed);
   const std::optional<Song> song = ExtractSong(&file, project.song, context_.most_seconds());
+  authoring::RequireSong(project, project.song, kUnnamed);
   if (!song && !project.seconds)
     throw InvalidArgument(std::string(kUnnamed) + ":seconds", "is missing, and there is no song");
   // An answer must fit into memory.

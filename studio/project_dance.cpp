@@ -64,6 +64,8 @@ ProjectDance DanceOf(const StudioContext& context, const authoring::Project& pro
   config.frames = std::max<int64_t>(1, std::llround(seconds * model.fps));
   config.controls = project.controls.Read(model, context.server(), CountsOf(project, song));
   if (song) {
+    authoring::NoteBehind(std::string(kUnnamed) + ":beats", project.beats, 0,
+                          authoring::HeardSeconds(song->music));
     config.music_beats = project.beats;
     config.music_downbeats = project.downbeats;
     authoring::ConfigureMusic(song->music, seconds, &config);

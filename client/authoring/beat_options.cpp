@@ -13,6 +13,7 @@
 #include "model/audio/beats/same_tempo.h"
 #include "model/audio/signal/format.h"
 #include "model/core/error.h"
+#include "model/core/field.h"
 #include "model/core/printable.h"
 #include "model/core/rounded.h"
 
@@ -65,6 +66,14 @@ BeatLine ParseBeat(const std::string& line, const std::string& field) {
   return beat;
 }
 
+/// Throws unless onsets tell a beat from the one before it.
+void RequireGap(double before, double beat, const std::string& field) {
+  if (beat - before >= 1 / kOnsetRate) return;
+  throw InvalidArgument(field, "is " + Rounded(beat - before) +
+                                   " s after the beat before it, must be 1/" + Rounded(kOnsetRate) +
+                                   " s or more");
+}
+
 BeatTrack ReadBeats(const std::string& path, double start) {
   if (!std::filesystem::is_regular_file(path))
     throw Error(ErrorCode::kNotFound, "beats", path + " is not a file");
@@ -81,11 +90,7 @@ BeatTrack ReadBeats(const std::string& path, double start) {
     text = text.substr(0, text.find('#'));
     if (text.find_first_not_of(" \t\r") == std::string::npos) continue;
     const BeatLine beat = ParseBeat(text, field);
-    if (beat.second - last < 1 / kOnsetRate) {
-      throw InvalidArgument(field, "is " + Rounded(beat.second - last) +
-                                       " s after the beat before it, must be 1/" +
-                                       Rounded(kOnsetRate) + " s or more");
-    }
+    RequireGap(last, beat.second, field);
     last = beat.second;
     if (track.frames.size() >= kMaxBeats)
       throw InvalidArgument(field, "is beat " + std::to_string(kMaxBeats + 1) + ", the limit is " +
@@ -97,8 +102,8 @@ BeatTrack ReadBeats(const std::string& path, double start) {
     track.beats_in_bar = std::max(track.beats_in_bar, beat.count);
     counted = counted && beat.count > 0;
   }
-  if (track.frames.empty())
-    throw InvalidArgument("beats", path + " has no beat after second " + InFull(start));
+  if (last < 0) throw InvalidArgument("beats", path + " is empty, but for comments");
+  RequireLeft(path, !track.frames.empty(), start);
   if (!counted) CountOthers(&track);
   return track;
 }
@@ -182,10 +187,33 @@ void Change(const BeatOptions& options, double start, BeatTrack* track) {
 
 }  // namespace
 
-void NoteBehind(const std::string& source, int64_t count, double end_s) {
+void CheckGivenBeats(std::span<const double> beats, const std::string& field) {
+  CheckBeats(beats, field);
+  for (size_t i = 1; i < beats.size(); ++i)
+    RequireGap(beats[i - 1], beats[i], At(field, static_cast<int64_t>(i)));
+}
+
+void RequireLeft(const std::string& source, bool any, double start) {
+  if (!any) throw InvalidArgument(source, "has no beat after second " + InFull(start));
+}
+
+void NoteBehind(const std::string& source, int64_t count, int64_t all, double end_s) {
+  if (count == all) {
+    throw InvalidArgument(source,
+                          "has no beat within the part of the song that is heard, its first " +
+                              Rounded(end_s) + " s; beats are in seconds");
+  }
   if (count == 0) return;
   Note("note: " + source + ": " + std::to_string(count) + (count == 1 ? " beat is" : " beats are") +
        " left out, behind the end of the song at " + Rounded(end_s) + " s");
+}
+
+void NoteBehind(const std::string& source, std::span<const double> beats, double start,
+                double end_s) {
+  if (beats.empty()) return;
+  const auto behind =
+      std::ranges::count_if(beats, [&](double beat) { return beat > end_s + 1 / kOnsetRate; });
+  NoteBehind(source, behind, std::ssize(beats), start + end_s);
 }
 
 void RequireSong(const BeatOptions& options, const std::string& song) {
@@ -207,19 +235,13 @@ BeatTrack BeatsAsAsked(std::span<const Onset> onsets, double start, const BeatOp
                               " s is after the part of the song that is heard, its first " +
                               Rounded(start + end) + " s");
   }
-  const int64_t behind = DropBehind(std::ssize(onsets), &track);
+  const int64_t all = std::ssize(track.frames), behind = DropBehind(std::ssize(onsets), &track);
+  if (!options.FindsThem()) NoteBehind(*options.beats, behind, all, start + end);
   if (track.frames.empty()) {
-    if (!options.FindsThem()) {
-      throw InvalidArgument(
-          "beats", *options.beats +
-                       " has no beat within the part of the song that is heard, its first " +
-                       Rounded(start + end) + " s; beats are in seconds");
-    }
     if (options.hint.tempo_bpm)
       WarnOfTempo(onsets, *options.hint.tempo_bpm, *options.hint.tempo_bpm, 0);
     return track;
   }
-  if (!options.FindsThem()) NoteBehind(*options.beats, behind, start + end);
   const double found_bpm = TempoOf(track.Seconds());
   Change(options, start, &track);
   track.tempo_bpm = TempoOf(track.Seconds());

@@ -64,6 +64,10 @@ void KeepFirst(double seconds, Music* music) {
                 [seconds](const Passage& passage) { return passage.from >= seconds; });
 }
 
+double HeardSeconds(const Music& music) {
+  return static_cast<double>(music.mono.size()) / kModelSampleRate;
+}
+
 Counts CountsOf(const Music& music) {
   return CountsFrom(music.track.Seconds(), music.track.DownbeatSeconds());
 }

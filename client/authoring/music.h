@@ -41,6 +41,9 @@ Music ReadMusic(const std::filesystem::path& path,
 /// Discards all data after the first `seconds`.
 void KeepFirst(double seconds, Music* music);
 
+/// The seconds of music that were heard, however many are kept.
+double HeardSeconds(const Music& music);
+
 /// The counts of the whole song.
 Counts CountsOf(const Music& music);
 

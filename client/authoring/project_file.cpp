@@ -5,7 +5,6 @@
 
 #include "client/authoring/beat_options.h"
 #include "client/authoring/json_fields.h"
-#include "model/audio/signal/format.h"
 #include "model/core/error.h"
 #include "model/core/joined.h"
 #include "model/core/rounded.h"
@@ -195,7 +194,7 @@ void Project::SetBeats(std::vector<double> times, std::vector<int> counted, int 
                                      std::to_string(kMaxBeatsInBar));
   };
   check(in_bar, name + ":bar");
-  CheckBeats(times, name + ":beats");
+  CheckGivenBeats(times, name + ":beats");
   if (counted.size() != times.size())
     throw InvalidArgument(name + ":beats", "and their counts are not equally many");
   std::vector<double> bars, eights;
@@ -219,6 +218,10 @@ void CheckProject(const Project& project, const std::string& name) {
         InFull(*project.seconds) + " is not above 0 and up to " + InFull(kMaxDanceSeconds));
   }
   CheckMarkers(project.markers, name + ":markers");
+}
+
+void RequireSong(const Project& project, const std::string& song, const std::string& name) {
+  if (song.empty() && !project.beats.empty()) throw InvalidArgument(name + ":beats", "need a song");
 }
 
 Project ReadProject(const std::filesystem::path& path) {

@@ -66,6 +66,9 @@ Project ReadProject(const std::filesystem::path& path);
 /// NAME:MEMBER, naming value and limit.
 void CheckProject(const Project& project, const std::string& name);
 
+/// Throws Error(kInvalidArgument, NAME:beats) for a project's beats without a song to dance to.
+void RequireSong(const Project& project, const std::string& song, const std::string& name);
+
 /// The second that a project has for a frame: short, and read back as the same frame.
 double SecondsOf(int64_t frame, double fps);
 

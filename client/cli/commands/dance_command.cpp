@@ -40,6 +40,7 @@ void FillFromProject(DanceOptions* options) {
   const auto file_of = [](const std::string& song) {
     return std::filesystem::path(song).filename();
   };
+  authoring::RequireSong(project, options->song, options->project);
   const bool others = options->beats.beats || options->beats.hint.tempo_bpm;
   if (!others && file_of(options->song) == file_of(project.song)) {
     for (const auto& [beats, of_dance] : {std::pair(&project.beats, &options->project_beats),
@@ -47,6 +48,10 @@ void FillFromProject(DanceOptions* options) {
                                           {&project.ones, &options->project_ones}}) {
       for (const double beat : *beats)
         if (beat >= options->song_start_s) of_dance->push_back(beat - options->song_start_s);
+    }
+    if (!project.beats.empty()) {
+      authoring::RequireLeft(options->project + ":beats", !options->project_beats.empty(),
+                             options->song_start_s);
     }
     authoring::ChangeBeats(options->beats, options->song_start_s, &options->project_beats,
                            &options->project_downbeats);
@@ -92,13 +97,6 @@ void CheckFiles(const DanceOptions& options, const std::vector<std::filesystem::
   RequireOutputs(outputs, inputs);
 }
 
-void NoteProjectBehind(const DanceOptions& options, const authoring::Music& music) {
-  const double end_s = static_cast<double>(music.mono.size()) / kModelSampleRate;
-  const auto behind = std::ranges::count_if(
-      options.project_beats, [&](double beat) { return beat > end_s + 1 / kOnsetRate; });
-  authoring::NoteBehind(options.project + ":beats", behind, options.song_start_s + end_s);
-}
-
 void Run(const DanceOptions& options) {
   const std::filesystem::path out = OutputPath(options);
   std::optional<authoring::Dancers> stage;
@@ -116,7 +114,8 @@ void Run(const DanceOptions& options) {
     music = authoring::ReadMusic(options.song,
                                  options.seconds.value_or(std::numeric_limits<double>::infinity()),
                                  options.song_start_s, options.beats);
-    NoteProjectBehind(options, *music);
+    authoring::NoteBehind(options.project + ":beats", options.project_beats, options.song_start_s,
+                          authoring::HeardSeconds(*music));
   }
   // Only our own server's default model is known to have SMPL's skeleton.
   if (options.server.addresses.empty() && options.model.empty()) CheckKeyFiles(options, music);

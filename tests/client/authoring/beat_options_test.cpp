@@ -151,6 +151,8 @@ TEST_F(MusicBeats, BadLinesAreRefusedByTheirNumber) {
   ExpectError(ErrorCode::kInvalidArgument, "beats.txt:2", [&] { Read("2\n1\n"); });
   ExpectError(ErrorCode::kInvalidArgument, "1 to 16", [&] { Read("1 17\n"); });
   ExpectError(ErrorCode::kInvalidArgument, "beats: ", [&] { Read("# none\n"); });
+  ExpectError(ErrorCode::kInvalidArgument, "beats.txt: has no beat after second 5",
+              [&] { Read("1\n2\n", {}, 5); });
   for (const char* bad : {"1 2x\n", "1 2 3\n", "0,5\n", "nan\n", "1e300\n", "-1\n"})
     ExpectError(ErrorCode::kInvalidArgument, "beats.txt:1", [&] { Read(bad); });
   ExpectError(ErrorCode::kInvalidArgument,
@@ -258,6 +260,36 @@ TEST_F(MusicBeats, AutoNeedsNoSong) {
   RequireSong({.beats = "auto"}, "");
   ExpectError(ErrorCode::kInvalidArgument, "need a song",
               [] { RequireSong({.hint = {.half_time = true}}, ""); });
+}
+
+// As a beat file's.
+TEST_F(MusicBeats, AProjectsAreCheckedAsThoseOfAFile) {
+  const auto project = [](const std::string& beats) {
+    return ParseProject(
+        nlohmann::json::parse(R"({"studio": 1, "keyframes": [], "beats": )" + beats + "}"),
+        "p.json");
+  };
+  ExpectError(ErrorCode::kInvalidArgument,
+              "p.json:beats[1]: is 0.005 s after the beat before it, must be 1/90 s or more",
+              [&] { project("[[0.5, 1], [0.505, 2]]"); });
+  ExpectError(ErrorCode::kInvalidArgument, "p.json:beats: need a song",
+              [&] { RequireSong(project("[[1, 1]]"), "", "p.json"); });
+  RequireSong(project("[]"), "", "p.json");
+  RequireSong(project("[[1, 1]]"), "song.wav", "p.json");
+}
+
+TEST_F(MusicBeats, InSecondsOfADanceEndWithItsSong) {
+  const auto note = [](const std::vector<double>& beats) {
+    return Noted([&] { NoteBehind("p.json:beats", beats, 2, 10); });
+  };
+  EXPECT_EQ(note({1, 10, 10.5, 11}),
+            "note: p.json:beats: 2 beats are left out, behind the end of the song at 12 s");
+  EXPECT_EQ(note({}), "");
+  ExpectError(ErrorCode::kInvalidArgument,
+              "p.json:beats: has no beat within the part of the song that is heard, its first 12 s",
+              [&] {
+                note({100, 101});
+              });
 }
 
 // The server hears of them as far as the dance goes.

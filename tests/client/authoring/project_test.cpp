@@ -168,6 +168,17 @@ TEST_F(ProjectTest, ItsBeatsAreThoseOfItsSong) {
   EXPECT_EQ(Bytes("late.bvh"), Bytes("same.bvh"));
 }
 
+TEST_F(ProjectTest, ItsBeatsAreWithinItsSong) {
+  project_["beats"] = {{100, 1}, {101, 2}};
+  ExpectRefused(
+      "p.json:beats: has no beat within the part of the song that is heard, its first 5 ");
+  project_["beats"] = {{1, 1}, {2, 2}};
+  const Outcome late = Dance("--project " + At("p.json") + " --song-start 3", "late.bvh");
+  EXPECT_THAT(late.said, HasSubstr("p.json:beats: has no beat after second 3"));
+  project_.erase("song");
+  ExpectRefused("p.json:beats: need a song");
+}
+
 TEST_F(ProjectTest, ItsPathLeadsAsAPathFileDoes) {
   ASSERT_EQ(Dance("--project " + At("p.json"), "anywhere.bvh").code, 0);
   const json path = {
