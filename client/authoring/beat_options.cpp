@@ -135,7 +135,8 @@ bool HasTempo(std::span<const double> beats, double bpm) {
   return false;
 }
 
-/// Warns if nothing in the music has the requested tempo, or if no beats have it.
+/// Warns if nothing in the music has the requested tempo, or if no beats have it. `taken_bpm`: 0 if
+/// there are none.
 void WarnOfTempo(std::span<const Onset> onsets, double asked_bpm, double found_bpm,
                  double taken_bpm) {
   std::string warning;
@@ -147,10 +148,23 @@ void WarnOfTempo(std::span<const Onset> onsets, double asked_bpm, double found_b
   const bool followed = std::ranges::any_of(std::array{0.5, 1.0, 2.0}, [&](double times) {
     return IsNear(found_bpm, times * asked_bpm);
   });
-  if (!followed)
+  if (taken_bpm == 0)
+    warning += warning.empty() ? " finds no beat" : "; it finds no beat";
+  else if (!followed)
     warning += (warning.empty() ? " is not found; beats are taken at " : "; they are taken at ") +
                whole(taken_bpm) + " a minute";
   if (!warning.empty()) Note("warning: --tempo " + InFull(asked_bpm) + warning);
+}
+
+/// Warns of options for which there are too few beats: half and double time need two of them, a
+/// downbeat one.
+void WarnOfFew(const BeatOptions& options, size_t beats) {
+  const std::string why = beats == 0 ? "no beat is heard" : "there is only one beat";
+  for (const auto& [given, option] :
+       {std::pair(options.hint.half_time, std::string("--half-time")),
+        {options.hint.double_time, "--double-time"},
+        {beats == 0 && options.downbeat_s, "--downbeat " + InFull(options.downbeat_s.value_or(0))}})
+    if (given && beats < 2) Note("warning: " + option + " changes nothing: " + why);
 }
 
 /// Beats from a frame before the song's part to its first beat, at the tempo of its first beats.
@@ -237,6 +251,7 @@ BeatTrack BeatsAsAsked(std::span<const Onset> onsets, double start, const BeatOp
   }
   const int64_t all = std::ssize(track.frames), behind = DropBehind(std::ssize(onsets), &track);
   if (!options.FindsThem()) NoteBehind(*options.beats, behind, all, start + end);
+  WarnOfFew(options, track.frames.size());
   if (track.frames.empty()) {
     if (options.hint.tempo_bpm)
       WarnOfTempo(onsets, *options.hint.tempo_bpm, *options.hint.tempo_bpm, 0);

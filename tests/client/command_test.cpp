@@ -103,6 +103,12 @@ TEST_F(CommandTest, AnalyzesASong) {
               HasSubstr("--seconds: 0 is not a number above 0"));
   EXPECT_THAT(Choreo("analyze " + At("song.wav") + " --song-start 9").said,
               HasSubstr("--song-start: 9 s is after the end"));
+  WriteFile(folder_ / "beat.txt", "1\n");
+  const std::string one = Choreo("analyze " + At("song.wav") + " --beats " + At("beat.txt")).said;
+  EXPECT_THAT(one, HasSubstr("1 channel; 1 beat, 1 bar of 4"));
+  WriteFile(folder_ / "beat.txt", "");
+  EXPECT_THAT(Choreo("analyze " + At("song.wav") + " --beats " + At("beat.txt")).said,
+              HasSubstr("beat.txt is empty, but for comments"));
 }
 
 TEST_F(CommandTest, SuggestsBeatsForKeyPoses) {

@@ -145,8 +145,8 @@ void PrintText(const authoring::Music& music, const authoring::Counts& counts,
   if (track.frames.empty()) {
     std::printf("no beat heard");
   } else {
-    std::printf("%.1f beats a minute, %s, %s of %d", track.tempo_bpm,
-                Counted(track.frames.size(), "beat").c_str(),
+    if (track.tempo_bpm > 0) std::printf("%.1f beats a minute, ", track.tempo_bpm);
+    std::printf("%s, %s of %d", Counted(track.frames.size(), "beat").c_str(),
                 Counted(track.DownbeatSeconds().size(), "bar").c_str(), track.beats_in_bar);
   }
   if (!counts.beats.empty()) std::printf(", count 1 at %.3f s", counts.beats[counts.one]);

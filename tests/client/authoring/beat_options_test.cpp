@@ -246,6 +246,21 @@ TEST_F(MusicBeats, ADownbeatFarFromAnyBeatIsWarnedOf) {
   for (const double near : {0.1, 0.6, 1.7, 2.9}) EXPECT_EQ(said(near), "") << near;
 }
 
+TEST_F(MusicBeats, OptionsForWhichThereAreTooFewAreWarnedOf) {
+  const std::vector<Onset> silence(900);
+  const auto silent = [&](const BeatOptions& options) {
+    return Noted([&] { BeatsAsAsked(silence, 0, options); });
+  };
+  EXPECT_EQ(silent({.downbeat_s = 3}), "warning: --downbeat 3 changes nothing: no beat is heard");
+  EXPECT_EQ(silent({.hint = {.half_time = true}}),
+            "warning: --half-time changes nothing: no beat is heard");
+  EXPECT_EQ(silent({.hint = {.tempo_bpm = 120}}), "warning: --tempo 120 finds no beat");
+  EXPECT_EQ(silent({}), "");
+  EXPECT_EQ(Noted([&] { Read("1\n", {.hint = {.double_time = true}}); }),
+            "warning: --double-time changes nothing: there is only one beat");
+  EXPECT_EQ(Noted([&] { Read("1\n", {.downbeat_s = 1}); }), "");
+}
+
 TEST_F(MusicBeats, ThoseBehindTheSongsEndAreToldOf) {
   const std::string lines = "1\n2\n3\n9\n10\n11\n12.5\n";
   const auto said = Noted([&] { EXPECT_EQ(Read(lines).frames.size(), 5U); });
