@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <optional>
 
 #include "client/authoring/key_file.h"
@@ -68,29 +69,33 @@ std::vector<std::string> EndIn(const NamedPose& pose, const std::vector<double>&
   client::KeyPose end = Ending(pose, beats, length);
   std::vector<std::string> gone;
   DanceKeys stay;
-  stay.warnings = keys->warnings;
   const int64_t way = std::llround(kWayFromHold * length.fps);
   for (size_t i = 0; i < keys->poses.size(); ++i) {
     const int64_t frame = FrameOf(keys->poses[i], length.fps);
-    if (frame <= *end.frame - way || frame == 0) {
+    const std::string held = HeldKey(*keys, i);
+    // ByTime ends the holds of keys that stay, and warns.
+    if (held.empty() ? frame <= *end.frame - way || frame == 0
+                     : std::ranges::find(gone, held) == gone.end()) {
       stay.poses.push_back(keys->poses[i]);
       stay.places.push_back(keys->places[i]);
-    } else if (HeldKey(*keys, i).empty()) {
+    } else if (held.empty()) {
       gone.push_back(keys->poses[i].id);
     }
   }
   if (!pose.has_place)
     end.pose = GroundFrame{.origin = PlaceAt(*end.frame, controls, length.fps, stay)}.ToWorld(
         pose.key.pose);
-  const std::vector<client::KeyPose> held = Holding(&end, last_s - end.time_s, kField);
+  const std::vector<client::KeyPose> holding = Holding(&end, last_s - end.time_s, kField);
   stay.poses.push_back(end);
   stay.places.emplace_back(kField);
-  for (client::KeyPose key : held) {
+  for (client::KeyPose key : holding) {
     key.frame = std::llround(key.time_s * length.fps);
     stay.poses.push_back(std::move(key));
     stay.places.push_back(std::string(kField) + ".hold");
   }
-  *keys = std::move(stay);
+  std::vector<client::Warning> warnings = std::move(keys->warnings);
+  *keys = ByTime(std::move(stay), length.fps);
+  std::ranges::move(warnings, std::inserter(keys->warnings, keys->warnings.begin()));
   return gone;
 }
 

@@ -251,6 +251,8 @@ TEST_F(CommandTest, ADanceEndsInAPoseThatIsHeld) {
   const std::string said = dance("-k " + At("keys.json"));
   EXPECT_THAT(said, HasSubstr("note: key \"b\" makes way for the ending\n"));
   expect_ending();
+  EXPECT_THAT(ReadJson(folder_ / "r.json")["warnings"].dump(),
+              HasSubstr(R"( s, not 9 s: the key \"end-bow\" comes at )"));
   const Motion motion = ReadMotion(folder_ / "d.npz", Body());
   EXPECT_NEAR(motion.frames.back().root_position.x(), 1, 0.3);
   EXPECT_NEAR(motion.frames.back().root_position.z(), -0.5, 0.3);
