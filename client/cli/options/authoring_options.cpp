@@ -5,6 +5,7 @@
 #include "client/authoring/velocities.h"
 #include "client/cli/options/options.h"
 #include "model/core/rounded.h"
+#include "model/formats/motion_file.h"
 
 namespace choreo::cli {
 namespace {
@@ -33,7 +34,12 @@ std::string FileHelp(const ControlRow& row) {
 
 CLI::Validator SongFile() {
   CLI::Validator validator(
-      [](std::string& name) { return name == "-" ? std::string() : CLI::ExistingFile(name); },
+      [](std::string& name) -> std::string {
+        if (name == "-") return {};
+        std::string refusal = CLI::ExistingFile(name);
+        if (!refusal.empty() || !IsMotionFile(name)) return refusal;
+        return name + " is a motion, not a song; choreo edit changes it";
+      },
       "FILE", "song");
   return validator;
 }
