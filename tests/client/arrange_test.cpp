@@ -410,7 +410,8 @@ TEST_F(ArrangeTest, RefusesImpossibleArrangements) {
   };
   expect_failure("--mirror --key kick --at 2", "--key: and --move, --remove");
   expect_failure("--from 10", "--from: nothing of ");
-  expect_failure("--from 4 --until 4", "--from: nothing of ");
+  expect_failure("--from 9 --until 3", "--from: 9 s is not before --until, 3 s");
+  expect_failure("--from 4 --until 4", "--from: 4 s is not before --until, 4 s");
   expect_failure("--until 0", "--until: nothing of ");
   expect_failure("--hold 1 --loop", "--hold: goes with --key");
   expect_failure("--join " + At("dance.npz"), "--join-report: is missing");

@@ -318,6 +318,8 @@ TEST_F(CommandTest, RendersAPartAsIfItWereTheWhole) {
     return Choreo("render " + At("whole.npz") + " --out " + At("a.png") + options).said;
   };
   EXPECT_THAT(refused(" --from 3"), HasSubstr("--from: nothing is left to draw: the motion ends"));
+  EXPECT_THAT(refused(" --from 1.5 --until 0.5"),
+              HasSubstr("--from: 1.5 s is not before --until, 0.5 s"));
   EXPECT_THAT(refused(" --until 0"), HasSubstr("--until: nothing is left to draw"));
   EXPECT_THAT(refused(" --from 9c"), HasSubstr("--from: 9c: counts need music that has beats"));
 }

@@ -43,11 +43,7 @@ std::pair<double, double> PartOf(const authoring::Music& music, const AnalyzeOpt
   const double said = second("--until", options.until, std::numeric_limits<double>::infinity());
   // The whole song is analysed, but a dance of --seconds has no keys after its end.
   const double until = std::min(said, options.seconds);
-  if (from >= until) {
-    throw InvalidArgument("--from", Rounded(from) + " s is not before " +
-                                        (said <= options.seconds ? "--until" : "--seconds") + ", " +
-                                        Rounded(until) + " s");
-  }
+  RequireBefore(from, until, said <= options.seconds ? "--until" : "--seconds");
   if (from >= music.audio.seconds()) {
     throw InvalidArgument("--from", Rounded(from) + " s is after the song's end at " +
                                         Rounded(music.audio.seconds()) + " s");

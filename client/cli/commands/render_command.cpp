@@ -90,6 +90,8 @@ void Cut(const DanceSettings& settings, RenderOptions* options, Stage* stage,
   const auto second = [&](const char* option, const std::string& time) {
     return authoring::ParseTime(time, option).In(counts, option);
   };
+  if (!options->from.empty() && !options->until.empty())
+    RequireBefore(second("--from", options->from), second("--until", options->until));
   const double fps = stage->front().motion.fps;
   const int64_t total = CountFrames(*stage);
   const double ends_s = static_cast<double>(total) / fps;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "client/arrange.h"
+#include "client/cli/options/options.h"
 #include "client/cli/report/dance_file.h"
 #include "client/cli/report/report.h"
 #include "client/cli/report/report_controls.h"
@@ -48,6 +49,8 @@ class Whole {
     const auto second = [&](const char* option, const std::string& time) {
       return authoring::ParseTime(time, option).In(counts, option);
     };
+    if (!options_.from.empty() && !options_.until.empty())
+      RequireBefore(second("--from", options_.from), second("--until", options_.until));
     // Starts on a frame of the model, because keys are on these.
     const double start_s =
         options_.from.empty()

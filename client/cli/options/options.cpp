@@ -50,6 +50,12 @@ CLI::Validator NumberFrom(double low, double high) {
 
 CLI::Validator TimeInSeconds() { return NumberFrom(0, authoring::kMaxSeconds); }
 
+void RequireBefore(double from_s, double until_s, const std::string& until) {
+  if (from_s < until_s) return;
+  throw InvalidArgument(
+      "--from", Rounded(from_s) + " s is not before " + until + ", " + Rounded(until_s) + " s");
+}
+
 const CLI::Validator& TimeOrCount() {
   static const CLI::Validator kCheck(
       [](const std::string& text) -> std::string {

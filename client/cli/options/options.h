@@ -19,6 +19,9 @@ namespace choreo::cli {
 const CLI::Validator& AboveZero();
 /// Accepts a number of seconds, 0 to kMaxSeconds.
 CLI::Validator TimeInSeconds();
+/// Throws Error(kInvalidArgument, "--from") unless a part begins before it ends. `until`: the
+/// option that says its end.
+void RequireBefore(double from_s, double until_s, const std::string& until = "--until");
 /// Accepts a time in seconds or counts (counts.h).
 const CLI::Validator& TimeOrCount();
 
