@@ -141,6 +141,7 @@ TEST_F(PlotCommandTest, NamesMotionsThatDoNotFit) {
     EXPECT_THAT(outcome.said, HasSubstr(message));
     EXPECT_FALSE(std::filesystem::exists(folder_ / "plot.png"));
   };
+  EXPECT_THAT(Plot("head " + both).said, HasSubstr("quantity: head not in {path,height,"));
   refused("path " + both + " --label one", "--label: 1 of them for 2 motions");
   refused("trunk " + both + " --path " + At("path.json"), "--path: says nothing of the speed");
   refused("path " + both + " --asked 1", "--asked: goes with a part of the body, not with path");

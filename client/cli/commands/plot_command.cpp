@@ -251,7 +251,7 @@ void AddPlotCommand(CLI::App& program) {
       "Compare motions in a line chart: their paths over the floor, heights, or speeds of parts. "
       "Or show the beats of one motion beside its song's.");
   command
-      ->add_option("of", options->of,
+      ->add_option("quantity", options->of,
                    "path (from above); height (of the root); trunk, left_arm, right_arm, left_leg "
                    "or right_leg (its speed); or beats (of the body and of --song).")
       ->required()
