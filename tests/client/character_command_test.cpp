@@ -54,6 +54,11 @@ TEST_F(CharacterCommandTest, AReportSaysWhatHandsDo) {
   ExpectRefused(with("\"claw\""), "report.json:keyframes[0].hands: \"claw\" is none of rest");
   const Outcome outcome = with("\"fist\"");
   EXPECT_EQ(outcome.code, 0) << outcome.said;
+  EXPECT_THAT(outcome.said, testing::Not(HasSubstr("note: --hands")));
+  EXPECT_THAT(
+      Convert("--character " + At("hero.glb") + " --report " + At("report.json") + " --hands point")
+          .said,
+      HasSubstr("note: --hands has no effect: keys of "));
 }
 
 TEST_F(CharacterCommandTest, AsksForAMapOfMeaninglessNames) {

@@ -1,6 +1,7 @@
 #include "client/cli/options/character_options.h"
 
 #include <algorithm>
+#include <iostream>
 #include <vector>
 
 #include "client/cli/options/bone_map.h"
@@ -65,6 +66,8 @@ void CharacterOptions::Write(const std::filesystem::path& out, const Skeleton& s
   const Motion smpl = Retarget(skeleton, motion, Skeleton::Smpl24());
   std::vector<HandKey> keys;
   if (!report.empty()) keys = HandKeys(ReadReport(report));
+  if (!keys.empty() && !hands.empty())
+    std::cerr << "note: --hands has no effect: keys of " << report << " name hands\n";
   const std::vector<CurledBone> fingers =
       keys.empty()
           ? CurlFingers(file.rig(), bones, *FindHandPose(hands.empty() ? "relaxed" : hands))
