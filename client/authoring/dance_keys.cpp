@@ -63,6 +63,12 @@ std::string WrittenMoment(const client::KeyPose& key) {
   return key.frame ? "at frame " + std::to_string(*key.frame) : "at " + Rounded(key.time_s) + " s";
 }
 
+/// A key of a hold as people wrote it: with the id of the key whose pose it holds.
+std::string Spoken(const client::KeyPose& key, const std::string& place) {
+  if (!IsHeld(place)) return "key \"" + key.id + '"';
+  return "the hold of key \"" + key.id.substr(0, key.id.rfind(kHeldStep)) + '"';
+}
+
 /// Throws for keys that are too near each other, which the server would refuse only once the dance
 /// has begun.
 void RequireApart(const DanceKeys& keys, double fps) {
@@ -108,7 +114,7 @@ void FitIntoDance(const DanceLength& length, const std::string& place, client::K
   if (!key->frame && frame == length.frames) key->frame = length.frames - 1;
   if (FrameOf(*key, length.fps) < length.frames) return;
   throw InvalidArgument(FieldOf(place, key->frame ? ".frame" : ".time"),
-                        "key \"" + key->id + "\" " + DescribeAfterEnd(frame, length));
+                        Spoken(*key, place) + ' ' + DescribeAfterEnd(frame, length));
 }
 
 std::string DescribeHoldEnd(const std::string& held, int64_t now, int64_t was,

@@ -151,7 +151,7 @@ std::vector<KeyPose> Holding(KeyPose* key, double seconds, const std::string& fi
   for (int step = 1; step <= steps; ++step) {
     KeyPose& held = holding[static_cast<size_t>(step) - 1];
     held.time_s += seconds * step / steps;
-    held.id += " held " + std::to_string(step);
+    held.id += kHeldStep + std::to_string(step);
   }
   if (!key->hit) key->hit = kUsualHit;
   return holding;

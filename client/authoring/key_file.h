@@ -25,6 +25,8 @@ inline constexpr double kEditAround = 2;
 /// Seconds within which a neighbouring key is near, so that an edit ends at it. A dance approaches
 /// a key for as long.
 inline constexpr double kNextKeyNear = 4;
+/// Between the id of a key and the number of a key that holds it: "kick held 2".
+inline constexpr const char* kHeldStep = " held ";
 inline constexpr double kMinHoldSeconds = 0.1, kMaxHoldSeconds = 60;
 /// How hard a held key is hit by default: in the dancer's own time.
 inline constexpr double kUsualHit = 1;

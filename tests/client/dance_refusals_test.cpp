@@ -167,7 +167,7 @@ TEST_F(CommandTest, NamesAKeyAsItWasWritten) {
   refused("-k " + At("held.json"), "held.json:keyframes[1].time: key \"b\" at 12 s is after");
   write("long.json", R"("id": "a", "time": 1)", R"("id": "b", "time": 2, "hold": 4)");
   refused("-k " + At("long.json"),
-          "long.json:keyframes[1].hold: key \"b held 11\" at 4.2 s is after");
+          "long.json:keyframes[1].hold: the hold of key \"b\" at 4.2 s is after");
   write("one.json", R"("id": "a", "time": 1)", R"("id": "b", "time": 2)");
   write("two.json", R"("id": "c", "time": 3)", R"("id": "a", "time": 3.5)");
   refused("-k " + At("one.json") + " -k " + At("two.json"),
