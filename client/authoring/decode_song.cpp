@@ -135,6 +135,9 @@ std::optional<DecodedAudio> DecodeByFfmpeg(const std::filesystem::path& path, do
 DecodedAudio DecodeSong(const std::filesystem::path& path, double seconds, double start,
                         double more) {
   std::optional<DecodedAudio> audio;
+  if (std::error_code none;
+      std::filesystem::is_regular_file(path, none) && std::filesystem::file_size(path, none) == 0)
+    throw InvalidArgument(path.string(), "is empty");
   try {
     audio = DecodeAudioFile(path, seconds, start, more);
   } catch (const Error& error) {

@@ -6,6 +6,7 @@
 #include <boost/locale/encoding_utf.hpp>
 #include <cerrno>
 #include <cstring>
+#include <fstream>
 #include <memory>
 
 #include "model/core/atomic_file.h"
@@ -33,6 +34,13 @@ std::string ErrorText(int code) {
   return text;
 }
 
+// A zip's directory is at its end.
+bool BeginsAsZip(const std::filesystem::path& path) {
+  char begin[2] = {};
+  std::ifstream(path, std::ios::binary).read(begin, sizeof begin);
+  return begin[0] == 'P' && begin[1] == 'K';
+}
+
 // Reads exactly `size` bytes; libzip verifies their checksum at the end. Reads in pieces, so that
 // memory use depends on the data, not on the size that the directory states.
 bool ReadAll(zip_file_t* file, uint64_t size, std::string* bytes) {
@@ -56,7 +64,9 @@ NpzArchive NpzArchive::Read(const std::filesystem::path& path) {
   if (!archive) {
     throw Error(code == ZIP_ER_NOENT || code == ZIP_ER_OPEN ? ErrorCode::kNotFound
                                                             : ErrorCode::kInvalidArgument,
-                name, "not a readable npz: " + ErrorText(code));
+                name,
+                "not a readable npz: " + ErrorText(code) +
+                    (BeginsAsZip(path) ? "; it may be cut off" : ""));
   }
   NpzArchive npz;
   npz.name_ = name;

@@ -109,6 +109,8 @@ TEST_F(CommandTest, AnalyzesASong) {
   WriteFile(folder_ / "beat.txt", "");
   EXPECT_THAT(Choreo("analyze " + At("song.wav") + " --beats " + At("beat.txt")).said,
               HasSubstr("beat.txt is empty, but for comments"));
+  WriteFile(folder_ / "nothing.wav", "");
+  EXPECT_THAT(Choreo("analyze " + At("nothing.wav")).said, HasSubstr("nothing.wav: is empty"));
   WriteFile(folder_ / "d.npz", "a dance");
   EXPECT_THAT(Choreo("dance " + At("d.npz") + " --seconds 4").said,
               HasSubstr("d.npz is a motion, not a song; choreo edit changes it"));
