@@ -103,6 +103,8 @@ TEST_F(CommandTest, AnalyzesASong) {
               HasSubstr("--seconds: 0 is not a number above 0"));
   EXPECT_THAT(Choreo("analyze " + At("song.wav") + " --song-start 9").said,
               HasSubstr("--song-start: 9 s is after the end"));
+  EXPECT_THAT(Choreo("analyze " + At("song.wav") + " --downbeat -1").said,
+              HasSubstr("--downbeat: -1 is not a number of seconds from 0 on"));
   WriteFile(folder_ / "beat.txt", "1\n");
   const std::string one = Choreo("analyze " + At("song.wav") + " --beats " + At("beat.txt")).said;
   EXPECT_THAT(one, HasSubstr("1 channel; 1 beat, 1 bar of 4"));

@@ -48,7 +48,10 @@ CLI::Validator NumberFrom(double low, double high) {
   return NumberThat(limits.str(), "", [=](double value) { return value >= low && value <= high; });
 }
 
-CLI::Validator TimeInSeconds() { return NumberFrom(0, authoring::kMaxSeconds); }
+CLI::Validator TimeInSeconds() {
+  return NumberThat("a number of seconds from 0 on", "",
+                    [](double value) { return value >= 0 && value <= authoring::kMaxSeconds; });
+}
 
 void RequireBefore(double from_s, double until_s, const std::string& until) {
   if (from_s < until_s) return;
