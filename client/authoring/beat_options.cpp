@@ -242,7 +242,9 @@ BeatTrack BeatsAsAsked(std::span<const Onset> onsets, double start, const BeatOp
   BeatTrack track = options.FindsThem()
                         ? TrackBeats(onsets, LimitsOf(options.hint), MusicExtent::kWhole, mono)
                         : ReadBeats(*options.beats, start);
-  const double end = static_cast<double>(onsets.size()) / kOnsetRate;
+  // The last row of onsets ends a little later than the song.
+  const double end = mono.empty() ? static_cast<double>(onsets.size()) / kOnsetRate
+                                  : static_cast<double>(mono.size()) / kModelSampleRate;
   if (options.downbeat_s && *options.downbeat_s - start > end) {
     throw InvalidArgument("downbeat",
                           InFull(*options.downbeat_s) +

@@ -45,7 +45,7 @@ void NoteBehind(const std::string& source, std::span<const double> beats, double
 
 /// Finds or, by the options, reads a song's beats from second `start` on. Warns (notes.h) if the
 /// song does not have the requested tempo. Throws Error(kInvalidArgument) whose field is "beats",
-/// "downbeat", the file or a line of it. `mono` as in TrackBeats.
+/// "downbeat", the file or a line of it. `mono` as in TrackBeats; it also tells the song's end.
 BeatTrack BeatsAsAsked(std::span<const Onset> onsets, double start, const BeatOptions& options,
                        std::span<const float> mono = {});
 

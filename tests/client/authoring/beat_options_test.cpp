@@ -12,6 +12,7 @@
 #include "client/authoring/music.h"
 #include "client/authoring/notes.h"
 #include "client/authoring/project_file.h"
+#include "model/audio/beats/onset.h"
 #include "model/audio/signal/format.h"
 #include "tests/support/expect_error.h"
 #include "tests/support/music_files.h"
@@ -269,6 +270,13 @@ TEST_F(MusicBeats, ThoseBehindTheSongsEndAreToldOf) {
   EXPECT_THAT(Noted([&] { Read(lines, {}, 2); }),
               testing::EndsWith("1 beat is left out, behind the end of the song at 12 s"));
   EXPECT_EQ(Noted([&] { Read("1\n2\n10\n"); }), "");
+}
+
+// Not with the last row of onsets, which ends later.
+TEST_F(MusicBeats, ASongEndsWithItsLastSample) {
+  const std::vector<float> song(20 * size_t{kModelSampleRate});
+  ExpectError(ErrorCode::kInvalidArgument, "its first 20 s",
+              [&] { BeatsAsAsked(FindOnsets(song), 0, {.downbeat_s = 30}, song); });
 }
 
 TEST_F(MusicBeats, AutoNeedsNoSong) {
