@@ -1,14 +1,11 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <thread>
+#include <utility>
 
 #include "client/live/sound.h"
-#include "model/audio/decode/decode.h"
-#include "model/core/error.h"
-#include "model/core/rounded.h"
 
 namespace choreo::live {
 namespace {
@@ -43,12 +40,7 @@ class PlayedSong final : public Sound {
 
 }  // namespace
 
-std::unique_ptr<Sound> PlaySong(const std::filesystem::path& path, double start) {
-  DecodedAudio song = DecodeAudioFile(path, std::numeric_limits<double>::infinity(), start);
-  if (song.interleaved.empty()) {
-    throw InvalidArgument("--song-start", InFull(start) + " s is after the end of " +
-                                              path.string() + " at " + Rounded(song.end_s) + " s");
-  }
+std::unique_ptr<Sound> PlaySong(DecodedAudio song) {
   return std::make_unique<PlayedSong>(std::move(song));
 }
 

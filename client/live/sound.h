@@ -1,10 +1,11 @@
 #pragma once
 
-#include <filesystem>
 #include <limits>
 #include <memory>
 #include <span>
 #include <string>
+
+#include "model/audio/decode/decode.h"
 
 /// Sources of live music.
 namespace choreo::live {
@@ -25,10 +26,8 @@ class Sound {
   virtual std::span<const float> Next() = 0;
 };
 
-/// Plays a file silently, from second `start` on: samples arrive at the speed at which they would
-/// be heard. Throws as DecodeAudioFile does, and Error(kInvalidArgument), whose field is
-/// --song-start, for a start after the song's end.
-std::unique_ptr<Sound> PlaySong(const std::filesystem::path& path, double start = 0);
+/// Plays a song silently: samples arrive at the speed at which they would be heard.
+std::unique_ptr<Sound> PlaySong(DecodedAudio song);
 
 /// Records from a microphone or line in, mono. `device`: the name of an ALSA capture device;
 /// "default" is the desktop's (also with PipeWire and PulseAudio). Throws Error(kNotFound), whose

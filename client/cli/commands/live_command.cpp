@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iomanip>
 #include <iostream>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <sstream>
@@ -77,12 +78,13 @@ void CheckOutputs(const LiveCommand& options) {
 
 std::unique_ptr<live::Sound> OpenSound(const LiveCommand& options) {
   if (options.song.empty()) return live::ListenTo(options.input);
-  return live::PlaySong(options.song, options.song_start_s);
+  return live::PlaySong(authoring::ReadSong(options.song, std::numeric_limits<double>::infinity(),
+                                            options.song_start_s));
 }
 
 /// The counts of a song's file, for times of keys and controls.
 authoring::Counts CountsFor(const LiveCommand& options, double seconds) {
-  if (options.song.empty()) {
+  if (options.song.empty() || options.song == "-") {
     return {.advice =
                 "the beats of live music are not known in advance; use seconds, or name the song's "
                 "file"};
@@ -133,8 +135,11 @@ std::string Say(const live::LiveFigures& figures) {
 
 DanceSettings SettingsFor(const LiveCommand& options, const live::LiveDance& live) {
   const client::Header& header = live.header();
-  DanceSettings settings{{options}, header.model, header.seed, options.song, options.song_start_s};
-  if (options.song.empty() || options.beats == authoring::BeatOptions()) return settings;
+  DanceSettings settings{{options}, header.model, header.seed};
+  if (options.song.empty() || options.song == "-") return settings;
+  settings.song = options.song;
+  settings.song_start_s = options.song_start_s;
+  if (options.beats == authoring::BeatOptions()) return settings;
   // Edits count like `analyze` with these options.
   client::DanceConfig config;
   const double seconds = Duration(live.motion());
@@ -235,9 +240,11 @@ void AddLiveCommand(CLI::App& program) {
       "the server allows.");
   CLI::Option* song =
       command
-          ->add_option("song", options->song,
-                       "WAV, FLAC, Ogg or MP3 file to dance to instead of a microphone or line in.")
-          ->check(CLI::ExistingFile);
+          ->add_option(
+              "song", options->song,
+              "WAV, FLAC, Ogg or MP3 file, or - for standard input, to dance to instead of a "
+              "microphone or line in; with ffmpeg installed, any file that it reads.")
+          ->check(SongFile());
   AddSongStart(*command, options->song_start_s);
   command
       ->add_option("--input", options->input,

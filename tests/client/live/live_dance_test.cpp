@@ -306,7 +306,7 @@ TEST_F(LiveDanceTest, FollowsTheBeatsOfAMidiClock) {
   WriteClicks(folder_ / "song.wav", 6);
   auto drums = std::make_unique<DrumMachine>(device);
   live::MidiClock* midi = &drums->clock();
-  Dance(*live::PlaySong(folder_ / "song.wav"), std::move(drums), midi);
+  Dance(*live::PlaySong(DecodeAudioFile(folder_ / "song.wav")), std::move(drums), midi);
   bool told = false;
   for (const live::LiveFigures& figures : figures_) {
     if (!figures.tempo) continue;
@@ -321,7 +321,7 @@ TEST_F(LiveDanceTest, FollowsTheBeatsOfAMidiClock) {
 TEST_F(LiveDanceTest, HalfTimeIsDancedToEverySecondBeat) {
   WriteClicks(folder_ / "song.wav", 12);
   hint_.half_time = true;
-  Dance(*live::PlaySong(folder_ / "song.wav"),
+  Dance(*live::PlaySong(DecodeAudioFile(folder_ / "song.wav")),
         std::make_unique<Script>(std::multimap<int, live::Cue>()), nullptr);
   const std::optional<double> tempo = figures_[figures_.size() - 2].tempo;
   ASSERT_TRUE(tempo);
@@ -546,6 +546,19 @@ TEST_F(CommandTest, ALiveDanceRefusesImpossibleOptions) {
   const OscReceiver taken;
   EXPECT_THAT(live(At("song.wav") + " --osc " + std::to_string(taken.port())).said,
               HasSubstr("--osc: port "));
+}
+
+TEST_F(CommandTest, ALiveDanceTellsOfItsSongAndReadsStandardInput) {
+  WriteClicks(folder_ / "song.wav", 2);
+  std::filesystem::resize_file(folder_ / "song.wav",
+                               std::filesystem::file_size(folder_ / "song.wav") / 2);
+  const Outcome cut = Choreo("live " + At("song.wav") + Server() + "</dev/null");
+  EXPECT_EQ(cut.code, 0) << cut.said;
+  EXPECT_THAT(cut.said, HasSubstr("song.wav: its header says "));
+  const Outcome piped =
+      Choreo("live -" + Server() + "--report " + At("r.json") + " --half-time <" + At("song.wav"));
+  EXPECT_EQ(piped.code, 0) << piped.said;
+  EXPECT_FALSE(ReadJson(folder_ / "r.json").contains("song"));
 }
 
 // Nothing else is done for what can't be danced to.
