@@ -6,11 +6,14 @@
 #include <boost/asio/post.hpp>
 #include <cmath>
 #include <fstream>
+#include <string_view>
 #include <utility>
+#include <vector>
 
 #include "client/authoring/json_fields.h"
 #include "client/authoring/key_faults.h"
 #include "client/authoring/key_file.h"
+#include "client/authoring/notes.h"
 #include "client/authoring/project_file.h"
 #include "model/core/rounded.h"
 #include "model/formats/bvh.h"
@@ -65,7 +68,19 @@ json Vectors(const Eigen::Matrix3Xd& columns) {
   return out;
 }
 
-std::string DanceJson(const client::DanceResult& dance) {
+/// What is noted about a project's beats, and about its song.
+std::vector<std::string> NotesOn(const authoring::Project& project, const Song* song,
+                                 const std::vector<std::string>& lines) {
+  constexpr std::string_view kMark = "note: ";
+  std::vector<std::string> notes;
+  for (const std::string& line : lines)
+    notes.push_back(line.starts_with(kMark) ? line.substr(kMark.size()) : line);
+  if (!song) return notes;
+  for (const std::string& note : song->heard.notes()) notes.push_back(project.song + ": " + note);
+  return notes;
+}
+
+std::string DanceJson(const client::DanceResult& dance, const std::vector<std::string>& notes) {
   json out = {{"frame_rate", dance.motion.fps}, {"joints", dance.header.skeleton.joint_names}};
   json& roots = out["root_positions"] = json::array();
   json& rotations = out["rotations"] = json::array();
@@ -76,6 +91,7 @@ std::string DanceJson(const client::DanceResult& dance) {
   }
   for (const client::Warning& warning : dance.warnings)
     warnings.push_back({{"frame", warning.frame}, {"message", warning.message}});
+  out["notes"] = notes;
   return out.dump();
 }
 
@@ -163,6 +179,7 @@ ProjectCalls::Reply ProjectCalls::Danced(const std::string& text, bool as_bvh) c
   if (project.has_keys)
     project.keys.poses = authoring::KeysIn(file, kUnnamed, model.skeleton, &project.keys.places,
                                            CountsOf(project, heard));
+  authoring::NotesApart noted;
   const ProjectDance requested = DanceOf(context_, project, seconds, heard);
   project.controls.RequireBegun(requested.config.controls, {*requested.config.frames, model.fps});
   authoring::RefuseHeldInAir(requested.keys, model.fps, model.skeleton);
@@ -181,7 +198,7 @@ ProjectCalls::Reply ProjectCalls::Danced(const std::string& text, bool as_bvh) c
     dance.warnings.push_back(std::move(fault));
   if (project.has_dancers)
     dance.warnings.push_back({.message = "dancers: this is the dance that they share"});
-  if (!as_bvh) return {.body = DanceJson(dance)};
+  if (!as_bvh) return {.body = DanceJson(dance, NotesOn(project, heard, noted.lines()))};
   return {.type = "text/plain", .body = BvhText(MotionToBvh(dance.header.skeleton, dance.motion))};
 }
 

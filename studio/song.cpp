@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
+#include "client/authoring/notes.h"
 #include "client/authoring/proposed_keys.h"
 #include "model/core/rounded.h"
 
@@ -33,6 +35,9 @@ std::vector<float> Peaks(const DecodedAudio& audio) {
 
 Song HearSong(const std::filesystem::path& path, const std::string& name, double most_seconds) {
   Song song;
+  // Notes about a copy of the song would name that. The page shows them.
+  std::optional<authoring::NotesApart> unseen;
+  if (path != name) unseen.emplace();
   try {
     // Stops decoding songs that are too long.
     song.music = authoring::ReadMusic(path, most_seconds);

@@ -10,12 +10,20 @@ NoteSink& Sink() {
   return sink;
 }
 
+thread_local NotesApart* innermost = nullptr;
+
 }  // namespace
+
+NotesApart::NotesApart() : outer_(std::exchange(innermost, this)) {}
+NotesApart::~NotesApart() { innermost = outer_; }
 
 void SetNoteSink(NoteSink sink) { Sink() = std::move(sink); }
 
 void Note(const std::string& line) {
-  if (Sink()) Sink()(line);
+  if (innermost)
+    innermost->lines_.push_back(line);
+  else if (Sink())
+    Sink()(line);
 }
 
 }  // namespace choreo::authoring

@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <string>
+#include <vector>
 
 /// This library prints nothing: it passes notes about songs, beats and motions to the program.
 namespace choreo::authoring {
@@ -12,6 +13,22 @@ using NoteSink = std::function<void(const std::string& line)>;
 
 /// Sets the process's sink; without one, lines are dropped. Call it before other threads start.
 void SetNoteSink(NoteSink sink);
+
+/// While it lives, keeps the lines of the thread that made it, which ends it, from the sink.
+class NotesApart {
+ public:
+  NotesApart();
+  ~NotesApart();
+  NotesApart(const NotesApart&) = delete;
+  NotesApart& operator=(const NotesApart&) = delete;
+
+  const std::vector<std::string>& lines() const { return lines_; }
+
+ private:
+  friend void Note(const std::string& line);
+  NotesApart* outer_;
+  std::vector<std::string> lines_;
+};
 
 /// For this library: passes a line to the sink.
 void Note(const std::string& line);

@@ -34,12 +34,12 @@ def dance(call="/dance", **changes):
     return ask("POST", call, json.dumps({name: value for name, value in project.items() if value is not None}))
 
 
-def clicks(seconds):
+def clicks(seconds, channels=(1,)):
     out = io.BytesIO()
     with wave.open(out, "wb") as file:
-        file.setparams((1, 2, 22050, 0, "NONE", ""))
+        file.setparams((len(channels), 2, 22050, 0, "NONE", ""))
         tones = (20000 * math.exp(-(i % 11025) / 200) * math.sin(i % 11025 / 2) for i in range(seconds * 22050))
-        file.writeframes(b"".join(struct.pack("<h", int(tone)) for tone in tones))
+        file.writeframes(b"".join(struct.pack("<h", int(tone) * sign) for tone in tones for sign in channels))
     return base64.b64encode(out.getvalue()).decode()
 
 
@@ -107,6 +107,13 @@ class ProjectCalls(unittest.TestCase):
         silent = json.loads(dance(seconds=3)[1])["rotations"]
         self.assertNotEqual(json.loads(text)["rotations"], silent)
         self.assertEqual(len(json.loads(dance(song="c.wav", song_data=clicks(3), seconds=2)[1])["rotations"]), 60)
+    def test_what_is_noted_about_a_song_is_told(self):
+        status, text = dance(song="c.wav", song_data=clicks(2, (1, -1)), beats=[[0.5, 1], [1, 2], [9, 3]])
+        self.assertEqual(status, 200, text)
+        beats, song = json.loads(text)["notes"]
+        self.assertEqual(beats, "project:beats: 1 beat is left out, behind the end of the song at 2 s")
+        self.assertTrue(song.startswith("c.wav: ") and "cancel" in song, song)
+        self.assertEqual(json.loads(dance()[1])["notes"], [])
 
     def test_beats_of_a_project_are_danced_on(self):
         song = {"song": "clicks.wav", "song_data": clicks(3), "seconds": None}
