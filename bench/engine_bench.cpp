@@ -101,14 +101,14 @@ void Transitions(benchmark::State& state, Sampler& sampler, const std::vector<do
   TransitionSpec spec = Spec(sampler.model(), 1);
   spec.beats = beats;
   const ValidSpec valid(std::move(spec), sampler.model());
-  for (auto _ : state) benchmark::DoNotOptimize(sampler.Begin(valid).Finish());
+  for (auto _ : state) benchmark::DoNotOptimize(sampler.Sample(valid).Finish());
   state.SetItemsProcessed(state.iterations());
 }
 
 /// The work that the server adds to a sampled transition: footwork.
 void Feet(benchmark::State& state, Sampler& sampler) {
   const TransitionSpec spec = Spec(sampler.model(), 1);
-  const std::vector<Pose> drawn = sampler.Begin(ValidSpec(spec, sampler.model())).Finish().poses;
+  const std::vector<Pose> drawn = sampler.Sample(ValidSpec(spec, sampler.model())).Finish().poses;
   const FootworkContext context{.skeleton = sampler.model().skeleton,
                                 .history = spec.history,
                                 .keyed = true,

@@ -148,7 +148,7 @@ Slices<ProcessedPlan> TransitionRun::DanceOnce(Sampler& sampler) const {
   if (held_)
     plan.poses.assign(static_cast<size_t>(spec_->frames), spec_->target->pose);
   else
-    plan = co_await sampler.Begin(spec_);
+    plan = co_await sampler.Sample(spec_);
   co_return co_await ProcessPlan(*model_, spec_, held_, std::move(plan));
 }
 

@@ -35,7 +35,7 @@ void WarmUp(Sampler& sampler) {
   for (double beat = 0; beat <= spec.frames; beat += kBeatSeconds * model.fps)
     spec.beats.push_back(beat);
   const ValidSpec valid(std::move(spec), model);
-  const auto sample = [&] { sampler.Begin(valid).Finish(); };
+  const auto sample = [&] { sampler.Sample(valid).Finish(); };
   sample();  // excludes one-time work from the measurement
   sampler.set_seconds_a_frame(SecondsOf(sample) / valid->frames);
 }

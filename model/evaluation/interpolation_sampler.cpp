@@ -18,7 +18,7 @@ ModelInfo Baseline(ModelInfo model) {
 InterpolationSampler::InterpolationSampler(ModelInfo model)
     : Sampler(Baseline(std::move(model)), "cpu") {}
 
-Slices<Plan> InterpolationSampler::Begin(const ValidSpec& valid) {
+Slices<Plan> InterpolationSampler::Sample(const ValidSpec& valid) {
   const TransitionSpec& spec = *valid;
   const Pose& from = spec.history.back();
   const Pose& to = spec.target ? spec.target->pose : from;

@@ -12,7 +12,7 @@ class InterpolationSampler : public Sampler {
   /// Copies from `model` everything on which requests depend.
   explicit InterpolationSampler(ModelInfo model);
 
-  Slices<Plan> Begin(const ValidSpec& spec) override;
+  Slices<Plan> Sample(const ValidSpec& spec) override;
 };
 
 }  // namespace choreo

@@ -229,7 +229,7 @@ ContinuousFlowSampler::ContinuousFlowSampler(ModelInfo info, std::string device,
       parts_(std::move(parts)),
       network_(std::move(network)) {}
 
-Slices<Plan> ContinuousFlowSampler::Begin(const ValidSpec& valid) {
+Slices<Plan> ContinuousFlowSampler::Sample(const ValidSpec& valid) {
   const TransitionSpec& spec = *valid;
   const FlowNoise noise{.seed = spec.seed,
                         .candidate = spec.candidate,

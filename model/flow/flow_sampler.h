@@ -65,7 +65,7 @@ class ContinuousFlowSampler : public Sampler {
                         std::shared_ptr<const FlowModelParts> parts,
                         std::shared_ptr<const FlowNetwork> network);
 
-  Slices<Plan> Begin(const ValidSpec& spec) override;
+  Slices<Plan> Sample(const ValidSpec& spec) override;
 
  private:
   std::shared_ptr<const FlowModelParts> parts_;

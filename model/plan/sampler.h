@@ -34,7 +34,7 @@ class Sampler {
 
   /// Samples a plan in slices, each so short that a due frame can wait for it. Spec and sampler
   /// must outlive the slices.
-  virtual Slices<Plan> Begin(const ValidSpec& spec) = 0;
+  virtual Slices<Plan> Sample(const ValidSpec& spec) = 0;
 
   /// Seconds per frame, measured by WarmUp; 0 before.
   double seconds_a_frame() const { return seconds_a_frame_; }

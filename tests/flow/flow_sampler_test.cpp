@@ -225,7 +225,7 @@ TEST(FlowSampler, APlanThatMissesItsEnergyInfinitelyHasPoses) {
   const auto parts = std::make_shared<const FlowModelParts>(Parts());
   const ModelInfo model = ControlledModel(*parts);
   ContinuousFlowSampler sampler(model, "cpu", parts, std::make_shared<const Diverging>());
-  EXPECT_EQ(sampler.Begin(ValidSpec(RequestedEnergy(), model)).Finish().poses.size(), 30U);
+  EXPECT_EQ(sampler.Sample(ValidSpec(RequestedEnergy(), model)).Finish().poses.size(), 30U);
 }
 
 // Throws an arm about in its first window, and in no other.
@@ -275,7 +275,7 @@ TEST(FlowSampler, RequestedEnergySamplesNoMoreThanTheBudget) {
     const auto always = std::make_shared<const Flailing>(1000);
     ContinuousFlowSampler sampler(model, "cpu", parts, always);
     spec.spare_frames = spare * spec.frames;
-    const Plan plan = sampler.Begin(ValidSpec(spec, model)).Finish();
+    const Plan plan = sampler.Sample(ValidSpec(spec, model)).Finish();
     EXPECT_EQ(plan.resampled, spec.spare_frames);
     EXPECT_EQ(always->evaluations, (1 + spare) * parts->config.steps);
   }

@@ -142,7 +142,7 @@ TEST_F(ContinuousFlowSamplerTest, InterleavedSlicesGiveTheSameBits) {
   for (const auto& [spec, slices] : wanted) {
     specs.push_back(spec);
     const ValidSpec valid(spec, sampler_->model());
-    auto sampling = sampler_->Begin(valid);
+    auto sampling = sampler_->Sample(valid);
     int made = 1;
     while (sampling.Continue()) ++made;
     EXPECT_GE(made, slices);
@@ -150,7 +150,7 @@ TEST_F(ContinuousFlowSamplerTest, InterleavedSlicesGiveTheSameBits) {
     EXPECT_EQ((made - slices) % 7, 0) << made;
   }
   const ValidSpec valid(lively, sampler_->model());
-  auto abandoned = sampler_->Begin(valid);
+  auto abandoned = sampler_->Sample(valid);
   for (int i = 0; i < 4; ++i) EXPECT_TRUE(abandoned.Continue());
   const std::vector<Plan> plans = SampleInTurn(sampler_.get(), specs);
   for (size_t i = 0; i < specs.size(); ++i) ExpectSameBits(plans[i], Dance(specs[i]));

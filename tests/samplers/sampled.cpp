@@ -83,7 +83,7 @@ std::vector<Plan> SampleInTurn(Sampler* sampler, std::span<const TransitionSpec>
   std::vector<std::optional<Slices<Plan>>> samplings;
   std::vector<ValidSpec> valid;
   for (const TransitionSpec& spec : specs) valid.emplace_back(spec, sampler->model());
-  for (const ValidSpec& spec : valid) samplings.emplace_back(sampler->Begin(spec));
+  for (const ValidSpec& spec : valid) samplings.emplace_back(sampler->Sample(spec));
   std::vector<Plan> plans(specs.size());
   for (bool any = true; any;) {
     any = false;

@@ -40,7 +40,7 @@ TransitionSpec RandomSpec(const ModelInfo& model, uint64_t seed, int frames = 12
 
 /// Samples one at once.
 inline Plan SampleNow(Sampler& sampler, const TransitionSpec& spec) {
-  return sampler.Begin(ValidSpec(spec, sampler.model())).Finish();
+  return sampler.Sample(ValidSpec(spec, sampler.model())).Finish();
 }
 /// Samples all of these with a slice of each in turn, until the last is done.
 std::vector<Plan> SampleInTurn(Sampler* sampler, std::span<const TransitionSpec> specs);

@@ -41,9 +41,9 @@ class LoggedSampler final : public Sampler {
         sampler_(std::move(sampler)),
         log_(std::move(log)) {}
 
-  Slices<Plan> Begin(const ValidSpec& spec) override {
+  Slices<Plan> Sample(const ValidSpec& spec) override {
     const bool is_bulk = spec->frames == kBulkFrames;
-    Slices<Plan> slices = sampler_->Begin(spec);
+    Slices<Plan> slices = sampler_->Sample(spec);
     for (bool more = true; more;) {
       log_->Add(is_bulk ? Log::Did::kBulkSlice : Log::Did::kDanceSlice);
       more = slices.Continue();

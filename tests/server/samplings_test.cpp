@@ -20,10 +20,10 @@ class CountingSampler : public Sampler {
   explicit CountingSampler(std::unique_ptr<Sampler> sampler)
       : Sampler(sampler->model(), sampler->device()), sampler_(std::move(sampler)) {}
 
-  Slices<Plan> Begin(const ValidSpec& spec) override {
+  Slices<Plan> Sample(const ValidSpec& spec) override {
     ValidSpec own = spec;
     if (!bounded) own.SetTake(spec->candidate, 1'000'000);
-    Plan plan = co_await sampler_->Begin(own);
+    Plan plan = co_await sampler_->Sample(own);
     sampled += spec->frames + plan.resampled;
     if (!bounded) plan.resampled = 0;
     co_return plan;

@@ -43,7 +43,7 @@ class FakeSampler : public Sampler {
   /// A hook for subclasses, called after each frame. It may change the plan, throw, or wait.
   virtual void OnFrame(const TransitionSpec& /*spec*/, Plan* /*plan*/) {}
 
-  Slices<Plan> Begin(const ValidSpec& spec) override;
+  Slices<Plan> Sample(const ValidSpec& spec) override;
 };
 
 /// A transition of the fake model, frame by frame.
@@ -137,7 +137,7 @@ class FakeTransition {
   std::vector<float> noise_;
 };
 
-inline Slices<Plan> FakeSampler::Begin(const ValidSpec& spec) {
+inline Slices<Plan> FakeSampler::Sample(const ValidSpec& spec) {
   FakeTransition transition(*this, *spec);
   Plan plan;
   for (int frame = 0; frame < spec->frames; ++frame) {

@@ -125,7 +125,7 @@ AutoregressiveFlowSampler::AutoregressiveFlowSampler(ModelInfo info, FlowConfig 
       config_(std::move(config)),
       make_stepper_(std::move(make_stepper)) {}
 
-Slices<Plan> AutoregressiveFlowSampler::Begin(const ValidSpec& valid) {
+Slices<Plan> AutoregressiveFlowSampler::Sample(const ValidSpec& valid) {
   const TransitionSpec& spec = *valid;
   const PoseCodec codec(model_.skeleton);
   const std::unique_ptr<FlowStepper> stepper = make_stepper_();

@@ -20,7 +20,7 @@ class AutoregressiveFlowSampler : public Sampler {
   AutoregressiveFlowSampler(ModelInfo info, FlowConfig config, std::string device,
                             MakeStepper make_stepper);
 
-  Slices<Plan> Begin(const ValidSpec& spec) override;
+  Slices<Plan> Sample(const ValidSpec& spec) override;
 
  private:
   FlowConfig config_;

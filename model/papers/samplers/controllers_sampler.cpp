@@ -140,7 +140,7 @@ void ControllersTransition::Step(int frame, Plan* plan) {
 ControllersSampler::ControllersSampler(ModelInfo info, ControllersModel network)
     : Sampler(std::move(info), "cpu"), network_(std::move(network)) {}
 
-Slices<Plan> ControllersSampler::Begin(const ValidSpec& spec) {
+Slices<Plan> ControllersSampler::Sample(const ValidSpec& spec) {
   ControllersTransition walk(model_, network_, *spec);
   Plan plan;
   for (int frame = 0; frame < spec->frames; ++frame) {

@@ -11,7 +11,7 @@ class ControllersSampler : public Sampler {
  public:
   ControllersSampler(ModelInfo info, ControllersModel network);
 
-  Slices<Plan> Begin(const ValidSpec& spec) override;
+  Slices<Plan> Sample(const ValidSpec& spec) override;
 
  private:
   ControllersModel network_;

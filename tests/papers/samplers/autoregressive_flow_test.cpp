@@ -44,7 +44,7 @@ std::vector<std::vector<float>> Heard(const ModelInfo& model) {
   spec.music = {Eigen::MatrixXf::Constant(2, model.history_frames, 4),
                 Eigen::MatrixXf::Constant(2, 2, 7)};
   spec.music->rows.col(1).setConstant(8);
-  EXPECT_EQ(sampler.Begin(ValidSpec(spec, sampler.model())).Finish().poses.size(), 2U);
+  EXPECT_EQ(sampler.Sample(ValidSpec(spec, sampler.model())).Finish().poses.size(), 2U);
   return heard;
 }
 
