@@ -59,7 +59,7 @@ std::vector<double> HearLive(const std::vector<float>& mono) {
   DanceMusic music(model, {}, &feed);
   BeatReport report(30, &feed, std::nullopt);
   for (int64_t from = 0; from + kTypicalFrames <= feed.ready(); from += kTypicalFrames) {
-    report.Start(music.PlanFor({from, from + kTypicalFrames}, from).Hear().beats, from);
+    report.StartTransition(music.PlanFor({from, from + kTypicalFrames}, from).Hear().beats, from);
     for (int64_t frame = from; frame < from + kTypicalFrames; ++frame) report.TakeAt(frame);
   }
   return report.reported();

@@ -50,7 +50,7 @@ void WriteFlowProbe(const std::filesystem::path& checkpoint, const std::filesyst
   NamedTensor& condition = probe.tensors["static_condition"] =
       Normal(&random, {kRows, kFrames, flow->key_width}, 0.5F);
   for (int row = 0; row < kRows; ++row) {
-    steppers.emplace_back(flow).Begin(
+    steppers.emplace_back(flow).StartTransition(
         Eigen::Map<const Eigen::MatrixXf>(Row(condition, row).data(), flow->key_width, kFrames));
   }
   for (int frame = 0; frame < kFrames; ++frame) {

@@ -24,7 +24,7 @@ bool HasOnset(const AudioFeed& audio, int64_t frame) {
 
 }  // namespace
 
-void BeatReport::Start(std::span<const Beat> beats, int64_t from) {
+void BeatReport::StartTransition(std::span<const Beat> beats, int64_t from) {
   const std::vector<double> seconds = SecondsOf(beats);
   ahead_.clear();
   std::optional<double> last = last_;

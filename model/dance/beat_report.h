@@ -20,7 +20,7 @@ class BeatReport {
       : fps_(fps), audio_(audio), last_(last) {}
 
   /// Starts the transition that begins at `from` and has these beats.
-  void Start(std::span<const Beat> beats, int64_t from);
+  void StartTransition(std::span<const Beat> beats, int64_t from);
 
   /// The beats to report with a frame of the current transition. Call once per frame, in order; the
   /// frame's row must be ready. Each beat is reported once, even if two transitions place it on

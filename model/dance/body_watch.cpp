@@ -15,7 +15,7 @@ BodyWatch::BodyWatch(const Skeleton& skeleton, double fps, const std::optional<P
   if (before) last_ = JointPositions(skeleton, *before);
 }
 
-void BodyWatch::Begin(const std::string& key_id, int64_t frames) {
+void BodyWatch::StartTransition(const std::string& key_id, int64_t frames) {
   key_id_ = key_id;
   frames_ = frames;
   fastest_ = {};

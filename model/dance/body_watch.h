@@ -20,10 +20,10 @@ class BodyWatch {
   BodyWatch(const Skeleton& skeleton, double fps, const std::optional<Pose>& before);
 
   /// Begins a transition of `frames` frames to the key with this id; an empty id means no key.
-  void Begin(const std::string& key_id, int64_t frames);
+  void StartTransition(const std::string& key_id, int64_t frames);
   void Add(int64_t frame, const Pose& pose);
-  /// Returns warnings about limits exceeded since Begin: one for the fastest step, and one for each
-  /// flight.
+  /// Returns warnings about limits exceeded since StartTransition: one for the fastest step, and
+  /// one for each flight.
   std::vector<Warning> Take();
 
  private:

@@ -194,7 +194,7 @@ std::function<void()> DanceChain::FinishTransition() {
 void DanceChain::Report(const Transition& job, int64_t frame, const std::optional<Key>& key) {
   const int64_t from = job.segment().from;
   if (frame == from) {
-    report_.Begin(job.segment(), job.warnings(), job.beats());
+    report_.StartTransition(job.segment(), job.warnings(), job.beats());
     // A resumed dance may begin a frame later.
     if (audio_) audio_->Forget(from - model_.history_frames);
   }

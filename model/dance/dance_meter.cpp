@@ -12,8 +12,8 @@ DanceMeter::DanceMeter(const ModelInfo& model, const DanceStart& start,
       quality_(model.skeleton, model.fps, start.FirstFrame(), std::move(reached)),
       watch_(model.skeleton, model.fps, before) {}
 
-void DanceMeter::Begin(const Segment& segment) {
-  watch_.Begin(segment.key ? segment.key->id : "", segment.to - segment.from);
+void DanceMeter::StartTransition(const Segment& segment) {
+  watch_.StartTransition(segment.key ? segment.key->id : "", segment.to - segment.from);
 }
 
 OutputFrames DanceMeter::Add(int64_t number, const DanceFrame& frame) {

@@ -22,14 +22,14 @@ class DanceMeter {
   DanceMeter(const ModelInfo& model, const DanceStart& start, const std::optional<Pose>& before,
              std::vector<KeyReached> reached = {});
 
-  void Begin(const Segment& segment);
+  void StartTransition(const Segment& segment);
   /// Adds the dance's next frame, with number `number`. Returns the output frames that it
   /// completes.
   OutputFrames Add(int64_t number, const DanceFrame& frame);
   /// Adds the key reached at the last added frame.
   void Reach(const KeyReached& key) { quality_.AddKey(key); }
 
-  /// Returns warnings about motion beyond the limits of human bodies since Begin.
+  /// Returns warnings about motion beyond the limits of human bodies since StartTransition.
   std::vector<Warning> TakeWarnings() { return watch_.Take(); }
   /// The report on all frames added so far. `music_beats`: seconds, ascending.
   QualityReport Report(std::span<const double> music_beats) const {

@@ -22,11 +22,11 @@ DanceReport::DanceReport(const ModelInfo& model, const ValidDance& config, const
       meter_(model, config_, PoseBefore(config_),
              config->continuation ? config->continuation->reached : std::vector<KeyReached>()) {}
 
-void DanceReport::Begin(const Segment& segment, const std::vector<Warning>& warnings,
-                        const std::vector<Beat>& beats) {
+void DanceReport::StartTransition(const Segment& segment, const std::vector<Warning>& warnings,
+                                  const std::vector<Beat>& beats) {
   for (const Warning& warning : warnings) Post(warning);
-  beats_.Start(beats, segment.from);
-  meter_.Begin(segment);
+  beats_.StartTransition(beats, segment.from);
+  meter_.StartTransition(segment);
 }
 
 void DanceReport::Add(int64_t number, const DanceFrame& frame) {

@@ -29,8 +29,8 @@ class DanceReport {
               Mailbox<DanceSink>& mailbox);
 
   /// Starts a transition.
-  void Begin(const Segment& segment, const std::vector<Warning>& warnings,
-             const std::vector<Beat>& beats);
+  void StartTransition(const Segment& segment, const std::vector<Warning>& warnings,
+                       const std::vector<Beat>& beats);
   /// Adds the next frame, with number `number`.
   void Add(int64_t number, const DanceFrame& frame);
   /// Records that the last added frame reaches this key.

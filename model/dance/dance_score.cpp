@@ -36,7 +36,7 @@ DanceScore::DanceScore(const ModelInfo& model, const ValidDance& config, const A
   if (!recurrence_.empty()) timeline_.SetCuts(CutsOf(config->music_passages, model.fps));
   if (audio != nullptr && recurs_ && IsUnknown(*config)) {
     timeline_.SetCutRule([this](int64_t from) {
-      recurrence_.Begin(from);
+      recurrence_.StartTransition(from);
       return recurrence_.NextCut(from + kTypicalFrames / 2);
     });
   }
@@ -187,7 +187,7 @@ std::optional<DanceScore::Next> DanceScore::TakeNext(size_t planned, int64_t rea
   // Waits for at least one row, because the beats of the whole music are set before its first row
   // is ready.
   if (audio_ != nullptr && ready < std::max(rows_end, first_frame_ + 1)) return std::nullopt;
-  recurrence_.Begin(segment->from);
+  recurrence_.StartTransition(segment->from);
   return Next{{.controls = controls_,
                .segment = *segment,
                .noise_like = recurrence_.Origins(segment->from, segment->to)},

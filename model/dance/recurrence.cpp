@@ -44,7 +44,7 @@ void Recurrence::Give(std::span<const Passage> passages, int64_t from, const std
   given_.push_back({from, {passages.begin(), passages.end()}});
 }
 
-void Recurrence::Begin(int64_t frame) {
+void Recurrence::StartTransition(int64_t frame) {
   for (; !given_.empty() && given_.front().from <= frame; given_.pop_front())
     Take(given_.front().passages, given_.front().from);
 }

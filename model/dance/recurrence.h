@@ -33,7 +33,7 @@ class Recurrence {
   void Give(std::span<const Passage> passages, int64_t from, const std::string& field);
 
   /// Starts the transition from `frame`, which must not decrease between calls.
-  void Begin(int64_t frame);
+  void StartTransition(int64_t frame);
   /// The earliest frame that `frame`, in the current transition, repeats; `frame` itself if none.
   int64_t Origin(int64_t frame) const;
   /// The first frame from `least` on, in the current transition, at which a transition should end:

@@ -159,7 +159,7 @@ void TransitionGroup::Impl::Begin() {
 Slices<> TransitionGroup::Impl::Measure(const TransitionRun& run) {
   const int candidate = static_cast<int>(run.spec().candidate);
   DanceMeter meter(model_, request_, run.StateAfter(0).history.back());
-  meter.Begin(segment_);
+  meter.StartTransition(segment_);
   std::vector<Call> calls;
   for (int64_t frame = segment_.from; frame < segment_.to; ++frame) {
     if ((frame - segment_.from) % kFramesASlice == 0) co_await Pause();

@@ -21,7 +21,7 @@ Pose At(const Eigen::Vector3d& by) {
 
 TEST(BodyWatch, NamesTheFastestStepOfATransition) {
   BodyWatch watch(Body(), kFps, At({0, 0, 0}));
-  watch.Begin("kneel", 15);
+  watch.StartTransition("kneel", 15);
   watch.Add(7, At({0, 0, 0.2}));
   watch.Add(8, At({0, 0, 0.7}));  // 15 m/s
   watch.Add(9, At({0, 0, 0.8}));
@@ -36,7 +36,7 @@ TEST(BodyWatch, NamesTheFastestStepOfATransition) {
   EXPECT_THAT(warnings[0].message,
               ::testing::EndsWith(" moves at 15 m/s; people reach 11; 0.68 s would do"));
   // The next transition is judged by its own frames.
-  watch.Begin("", 15);
+  watch.StartTransition("", 15);
   watch.Add(10, At({0, 0, 0.9}));
   EXPECT_TRUE(watch.Take().empty());
 }
@@ -46,7 +46,7 @@ TEST(BodyWatch, AFlightIsToldOnceAcrossTransitions) {
   int64_t frame = 0;
   std::vector<Warning> told;
   const auto dance = [&](const std::string& key, int frames, double height) {
-    watch.Begin(key, frames);
+    watch.StartTransition(key, frames);
     for (int i = 0; i < frames; ++i) watch.Add(frame++, At({0, height, 0}));
     for (const Warning& warning : watch.Take()) told.push_back(warning);
   };
@@ -72,7 +72,7 @@ TEST(BodyWatch, HandsOnTheFloorAreNoFlight) {
   const double lowest = JointPositions(Body(), pose).row(1).minCoeff();
   pose.root_position.y() += 0.05 - lowest;
   BodyWatch watch(Body(), kFps, pose);
-  watch.Begin("", 60);
+  watch.StartTransition("", 60);
   for (int64_t frame = 0; frame < 60; ++frame) watch.Add(frame, pose);
   EXPECT_TRUE(watch.Take().empty());
 }

@@ -19,7 +19,7 @@ const ModelInfo model;  // at 30 frames a second
 // Returns the beats of a transition that begins.
 std::vector<Beat> Begin(DanceMusic* music, BeatReport* report, int64_t from, int64_t to) {
   const std::vector<Beat> beats = music->PlanFor({from, to}, from).Hear().beats;
-  report->Start(beats, from);
+  report->StartTransition(beats, from);
   return beats;
 }
 

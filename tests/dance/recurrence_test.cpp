@@ -37,13 +37,13 @@ TEST(Recurrence, LaterPassagesApplyAfterTheFrozenFrames) {
   const std::vector<Passage> first{{10, 20, 0}}, later{{12, 30, 4}};
   Recurrence recurrence(30, first);
   recurrence.Give(later, 450, "p");
-  recurrence.Begin(420);
+  recurrence.StartTransition(420);
   EXPECT_EQ(recurrence.Origin(460), 160) << "of one that began before";
-  recurrence.Begin(450);
+  recurrence.StartTransition(450);
   EXPECT_EQ(recurrence.Origin(450), 210);
   const std::vector<Passage> none{{20, 20, 0}};
   recurrence.Give(none, 470, "p");
-  recurrence.Begin(480);
+  recurrence.StartTransition(480);
   EXPECT_EQ(recurrence.Origin(599), 59) << "359, which was 59";
   EXPECT_EQ(recurrence.Origin(600), 600) << "it ended there";
 }

@@ -129,9 +129,9 @@ Slices<Plan> AutoregressiveFlowSampler::Sample(const ValidSpec& valid) {
   const TransitionSpec& spec = *valid;
   const PoseCodec codec(model_.skeleton);
   const std::unique_ptr<FlowStepper> stepper = make_stepper_();
-  stepper->Begin(KeyConditions(config_, codec.joints(), codec.width(), spec.frames,
-                               spec.target ? &spec.target->pose : nullptr,
-                               spec.target ? spec.target->mask : PoseMask{}));
+  stepper->StartTransition(KeyConditions(config_, codec.joints(), codec.width(), spec.frames,
+                                         spec.target ? &spec.target->pose : nullptr,
+                                         spec.target ? spec.target->mask : PoseMask{}));
   TransitionWindow window(model_, config_.audio_features, spec);
   std::optional<Arrival> arrival = ArrivalOf(spec);
   std::vector<float> features(static_cast<size_t>(codec.width()));

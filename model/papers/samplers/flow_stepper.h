@@ -48,7 +48,7 @@ class FlowStepper {
  public:
   virtual ~FlowStepper() = default;
   /// Starts a transition with zero state. `conditions`: [width, frames] from KeyConditions.
-  virtual void Begin(Eigen::MatrixXf conditions) = 0;
+  virtual void StartTransition(Eigen::MatrixXf conditions) = 0;
   /// Computes the next frame.
   virtual void Step(FlowFrame* frame) = 0;
 };

@@ -9,7 +9,7 @@ namespace choreo {
 
 using torch::Tensor;
 
-void InbetweenerStepper::Begin(Eigen::MatrixXf conditions) {
+void InbetweenerStepper::StartTransition(Eigen::MatrixXf conditions) {
   const c10::InferenceMode inference;
   conditions_ = std::move(conditions);
   state_ = model_->InitialState(1);

@@ -14,7 +14,7 @@ class InbetweenerStepper : public FlowStepper {
   /// `model`: in eval mode.
   explicit InbetweenerStepper(Inbetweener model) : model_(std::move(model)) {}
 
-  void Begin(Eigen::MatrixXf conditions) override;
+  void StartTransition(Eigen::MatrixXf conditions) override;
   void Step(FlowFrame* frame) override;
 
  private:

@@ -158,7 +158,7 @@ PackedStepper::PackedStepper(std::shared_ptr<const PackedFlow> flow) : flow_(std
   mixed_.Resize(1, coupling.unmix.padded());
 }
 
-void PackedStepper::Begin(Eigen::MatrixXf conditions) {
+void PackedStepper::StartTransition(Eigen::MatrixXf conditions) {
   const PackedFlow& flow = *flow_;
   if (flow.encoded) {
     Eigen::MatrixXf encoded(flow.encode_static.padded(), conditions.cols());

@@ -82,7 +82,7 @@ class PackedStepper : public FlowStepper {
  public:
   explicit PackedStepper(std::shared_ptr<const PackedFlow> flow);
 
-  void Begin(Eigen::MatrixXf conditions) override;
+  void StartTransition(Eigen::MatrixXf conditions) override;
   void Step(FlowFrame* frame) override;
 
  private:

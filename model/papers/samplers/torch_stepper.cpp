@@ -30,7 +30,7 @@ Tensor TorchStepper::Input(Part part) const {
   return input_.narrow(1, begin_[part], begin_[part + 1] - begin_[part]);
 }
 
-void TorchStepper::Begin(Eigen::MatrixXf conditions) {
+void TorchStepper::StartTransition(Eigen::MatrixXf conditions) {
   const c10::InferenceMode inference;
   const Tensor raw = torch::from_blob(conditions.data(), {conditions.cols(), conditions.rows()});
   FlowModel model = weights_->model;

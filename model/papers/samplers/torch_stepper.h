@@ -24,7 +24,7 @@ class TorchStepper : public FlowStepper {
  public:
   explicit TorchStepper(std::shared_ptr<TorchWeights> weights);
 
-  void Begin(Eigen::MatrixXf conditions) override;
+  void StartTransition(Eigen::MatrixXf conditions) override;
   void Step(FlowFrame* frame) override;
 
  private:

@@ -22,7 +22,7 @@ ModelInfo Model(bool hears_music) {
 class ListeningStepper : public FlowStepper {
  public:
   explicit ListeningStepper(std::vector<std::vector<float>>* heard) : heard_(heard) {}
-  void Begin(Eigen::MatrixXf) override {}
+  void StartTransition(Eigen::MatrixXf) override {}
   void Step(FlowFrame* frame) override {
     heard_->emplace_back(frame->audio.begin(), frame->audio.end());
     EXPECT_EQ(frame->frame, static_cast<int>(heard_->size()) - 1);
