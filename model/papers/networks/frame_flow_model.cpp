@@ -69,7 +69,7 @@ int FlowModelImpl::static_width() const {
   return config_.condition_width + (config_.innovations ? 2 * pose_width() + 1 : 0);
 }
 
-Tensor FlowModelImpl::Begin(const TransitionTensors& transition) {
+Tensor FlowModelImpl::StaticCondition(const TransitionTensors& transition) {
   return Encode(KeyConditionTensors(config_, skeleton_, transition));
 }
 

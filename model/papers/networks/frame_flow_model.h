@@ -26,7 +26,7 @@ class FlowModelImpl : public torch::nn::Module {
 
   /// The part of each frame's condition that is known before the first frame, the encoded key
   /// conditions: [batch, N, static_width()].
-  torch::Tensor Begin(const TransitionTensors& transition);
+  torch::Tensor StaticCondition(const TransitionTensors& transition);
   /// Key conditions [..., key_width()] after the shared encoding's first layer, or unchanged
   /// without one.
   torch::Tensor Encode(const torch::Tensor& conditions);

@@ -112,19 +112,20 @@ class FlowRun : public PaperRun {
     }
     NormaliseFeatures(torch::cat(seen), model_);
     model_->InitialiseActNorm(Dequantise(model_, batch.features, options().flow.dequantise),
-                              batch.audio, batch.has_audio, model_->Begin(batch.transition));
+                              batch.audio, batch.has_audio,
+                              model_->StaticCondition(batch.transition));
   }
 
   void TrainStep() override {
     Random random = RandomOf(step());
     model_->train();
     const MotionBatch batch = Draw(&random, DrawnLength(options(), &random));
-    Descend(
-        LikelihoodLoss(model_, batch, model_->Begin(batch.transition), options().flow.dequantise));
+    Descend(LikelihoodLoss(model_, batch, model_->StaticCondition(batch.transition),
+                           options().flow.dequantise));
     if (step() < options().flow.rollout_from) return;
     const MotionBatch sampled =
         batch.First(std::lround(options().flow.rollout_share * batch.features.size(0)));
-    Descend(RolloutLoss(model_, kinematics_, sampled, model_->Begin(sampled.transition),
+    Descend(RolloutLoss(model_, kinematics_, sampled, model_->StaticCondition(sampled.transition),
                         /*temperature=*/1, rollout_));
   }
 
@@ -139,7 +140,7 @@ class FlowRun : public PaperRun {
       Random random(kValidationSeed, static_cast<uint32_t>(frames));
       const MotionBatch batch =
           DrawMotion(clips_.validation, kValidationWindows, history, frames, {}, device_, &random);
-      const torch::Tensor condition = model_->Begin(batch.transition);
+      const torch::Tensor condition = model_->StaticCondition(batch.transition);
       const auto distance = [&](const TrajectoryTensors& poses, const TrajectoryTensors& truth) {
         return JointDistance(kinematics_, poses, truth).mean().item<double>();
       };

@@ -121,7 +121,7 @@ TEST_P(FlowTest, RolloutLikelihoodEqualsThatOfItsNoise) {
   torch::NoGradGuard no_grad;
   const int64_t frames = 5, width = model_->feature_width();
   const TransitionTensors transition = RandomTransition(3, frames);
-  const Tensor condition = model_->Begin(transition);
+  const Tensor condition = model_->StaticCondition(transition);
   const Tensor history = 0.2 * torch::randn({3, 10, width});
   const Tensor audio = torch::randn({3, 10 + frames, 40});
   const Tensor has_audio = torch::ones({3, 1});
@@ -166,7 +166,7 @@ TEST(LstmLayerTest, ComputesAndLearnsAsTorchsOwn) {
 
 TEST_P(FlowTest, TrainingAndServingSampleTheSameFrames) {
   const int64_t frames = 5, width = model_->feature_width();
-  const Tensor condition = model_->Begin(RandomTransition(2, frames));
+  const Tensor condition = model_->StaticCondition(RandomTransition(2, frames));
   const Tensor history = 0.2 * torch::randn({2, 10, width});
   const Tensor audio = torch::randn({2, 10 + frames, 40}), heard = torch::ones({2, 1});
   const Tensor noise = torch::randn({2, frames, width});
@@ -207,7 +207,7 @@ TEST_P(FlowTest, MusicKeyAndTimeLeftChangeTheDance) {
   const Tensor audio = torch::randn({1, 10 + frames, 40});
   const Tensor noise = torch::zeros({1, frames, width});
   const auto dance = [&](const TransitionTensors& of, const Tensor& music, double has_audio) {
-    const Tensor condition = model_->Begin(of);
+    const Tensor condition = model_->StaticCondition(of);
     return model_->Rollout(history, music, torch::full({1, 1}, has_audio), condition, noise);
   };
   const Tensor base = dance(transition, audio, 1);
@@ -286,12 +286,12 @@ TEST(KeyConditionTest, EqualsTheModulesInput) {
       const Eigen::MatrixXf written =
           KeyConditions(config, joints, model->feature_width(), frames, &key, mask);
       ASSERT_EQ(written.rows(), model->key_width());
-      const Tensor expected = model->Begin(transition)[0].contiguous();
+      const Tensor expected = model->StaticCondition(transition)[0].contiguous();
       const Eigen::Map<const Eigen::MatrixXf> theirs(expected.data_ptr<float>(), written.rows(),
                                                      frames);
       EXPECT_LT((written - theirs).cwiseAbs().maxCoeff(), 1e-5);
       transition.target_mask.zero_();
-      EXPECT_EQ(model->Begin(transition).abs().max().item<float>(), 0);
+      EXPECT_EQ(model->StaticCondition(transition).abs().max().item<float>(), 0);
       EXPECT_TRUE(
           KeyConditions(config, joints, model->feature_width(), frames, nullptr, {}).isZero());
     }

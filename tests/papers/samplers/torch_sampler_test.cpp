@@ -82,7 +82,7 @@ TEST_P(TorchSamplerTest, SamplesAsTheModuleDoes) {
       }
       transition.target_mask[0][joints] = mask.root_position ? 1 : 0;
     }
-    const torch::Tensor condition = model_->Begin(transition);
+    const torch::Tensor condition = model_->StaticCondition(transition);
     const int width = codec.width();
     torch::Tensor features = torch::empty({tau + spec.frames, width});
     for (int i = 0; i < tau + spec.frames; ++i) {
