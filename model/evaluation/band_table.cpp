@@ -56,7 +56,7 @@ Table BandTable(const Evaluation& evaluation, const Method& method, const Liveli
       above += ours.col(j);
       below += theirs.col(j);
     }
-    table.Begin({name});
+    table.AddRow({name});
     for (int band = 0; band < kBands; ++band) {
       char heading[64];
       std::snprintf(heading, sizeof(heading), "%g to %g Hz", kBandEdges[band],

@@ -76,7 +76,7 @@ Table BeatTable::Finish() const {
     const auto put = [&](const char* heading, int digits, auto figure) {
       table.Put(heading, digits, Mean(row.entries, figure));
     };
-    table.Begin({row.name});
+    table.AddRow({row.name});
     table.Put("dances", 0, static_cast<double>(row.entries.size()));
     const auto hit_rate = [](const Entry& one) { return 100 * one.own.hit_rate; };
     put("hit rate %", 1, hit_rate);

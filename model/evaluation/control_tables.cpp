@@ -45,7 +45,7 @@ Table FactorTable(Table table, const std::string& note, const Evaluation& evalua
     for (const auto& [scale, times] : kScales) {
       if (scale != 1 && !way.TakesVelocityFactors()) continue;
       const Dances dances = course.Dance(way, scale);
-      table.Begin({way.name, times});
+      table.AddRow({way.name, times});
       for (int part = 0; part < kBodyParts; ++part) {
         const auto danced = course.FiguresOf(dances, [&](const auto& window, const auto& poses) {
           return SpeedTrackOf(evaluation.model().skeleton, window.before, poses).row(part).mean();
@@ -127,7 +127,7 @@ std::vector<Table> EvaluateControls(const Evaluation& evaluation) {
     std::vector<Lengths> all;
     for (size_t w = 0; w < ways.size(); ++w) {
       Lengths& lengths = all.emplace_back();
-      table.Begin({ways[w].name});
+      table.AddRow({ways[w].name});
       for (size_t i = 0; i < courses.size(); ++i) {
         lengths.push_back(courses[i].FiguresOf(dances[w][i], of.figure));
         table.Put(std::to_string(kControlledFrames[i]), of.digits, Mean(lengths.back()));
@@ -139,7 +139,7 @@ std::vector<Table> EvaluateControls(const Evaluation& evaluation) {
   Table ratio = evaluation.NewTable("lrp_ratio", "LRP over interpolation's", {"method"});
   ratio.note = setting + "Interpolation: slerp, its root on the path.";
   for (size_t w = 0; w < ways.size(); ++w) {
-    ratio.Begin({ways[w].name});
+    ratio.AddRow({ways[w].name});
     for (size_t i = 0; i < courses.size(); ++i)
       ratio.Put(std::to_string(kControlledFrames[i]), 2, Ratio(lrp[w][i], lrp[kInterpolation][i]));
   }
@@ -177,7 +177,7 @@ std::vector<Table> EvaluateRepetition(const Evaluation& evaluation) {
   std::vector<ControlCourse> courses;
   for (const int frames : kLongLengths) courses.emplace_back(evaluation, frames);
   for (const Method& way : WaysOf(evaluation.methods)) {
-    table.Begin({way.name});
+    table.AddRow({way.name});
     for (size_t i = 0; i < courses.size(); ++i) {
       const int frames = kLongLengths[i], ending = static_cast<int>((1 - kEnding) * frames);
       const Dances dances = courses[i].Dance(way);

@@ -73,7 +73,7 @@ std::vector<Table> EvaluateDrawnPaths(const Evaluation& evaluation) {
       const auto put = [&](const char* heading, int digits, const ControlCourse::Figure& figure) {
         table.Put(heading, digits, Mean(course.FiguresOf(dances, figure)));
       };
-      table.Begin({name, way.name});
+      table.AddRow({name, way.name});
       put("root asked m/s", 2,
           [&](const auto& window, const auto&) { return PathSpeed(window, model.fps); });
       put("skating", 2, [&](const auto& window, const auto& danced) {

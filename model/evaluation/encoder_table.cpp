@@ -101,7 +101,7 @@ std::vector<Table> EvaluateEncoded(const Evaluation& evaluation) {
     if (method.kind == Method::Kind::kInterpolation) continue;
     if (method.kind == Method::Kind::kReal && real.odd.empty()) continue;
     const EncodedFigures figures = MeasureEncoded(evaluation, method);
-    table.Begin({method.name});
+    table.AddRow({method.name});
     table.Put("FID", 2, figures.fid);
     table.Put("variability", 2, figures.variability);
     table.Put("diversity", 1, figures.diversity);

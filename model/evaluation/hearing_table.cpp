@@ -130,7 +130,7 @@ class Judge {
   template <typename Figure>
   void Row(const std::string& label, int digits, const std::vector<const Setting*>& matters,
            Figure of) {
-    table_.Begin({label});
+    table_.AddRow({label});
     for (const Setting& setting : kSettings) {
       const bool applies = std::ranges::count(matters, &setting) > 0;
       table_.Put(setting.name, digits, applies ? of(setting) : NAN);

@@ -44,7 +44,7 @@ struct KeyedDances {
 };
 
 void Add(const std::string& figure, Cell real, Cell locked, Cell danced, Cell ratio, Table* table) {
-  table->Begin({figure});
+  table->AddRow({figure});
   table->Put("real motion", 2, real);
   table->Put("real, footwork", 2, locked);
   table->Put("danced", 2, danced);

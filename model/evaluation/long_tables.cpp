@@ -42,7 +42,7 @@ void AddRow(const std::string& name, const std::vector<LongFigures>& dances, con
   for (const LongFigures& dance : dances)
     jolts.insert(jolts.end(), dance.key_accelerations.begin(), dance.key_accelerations.end());
   const auto of_keys = [&](auto figure) { return jolts.empty() ? NAN : figure(); };
-  table->Begin({name});
+  table->AddRow({name});
   table->Put("dances", 0, count);
   table->Put("seconds median", 0, median(&LongFigures::seconds));
   table->Put("speed median m/s", 2, median(&LongFigures::median_speed));

@@ -127,7 +127,7 @@ std::vector<Table> EvaluateStress(const Evaluation& evaluation) {
     const auto frozen =
         std::ranges::count_if(speeds, [&](float speed) { return range.Frozen(speed); });
     const auto of_keys = [&](double value) { return all[0].required ? value : NAN; };
-    table.Begin({one.name, std::to_string(one.frames)});
+    table.AddRow({one.name, std::to_string(one.frames)});
     table.Put("transitions", 0, count);
     table.Put("root m/s asked", 1, of_keys(root));
     table.Put("joint rad/s asked", 1, of_keys(joint));

@@ -95,7 +95,7 @@ std::vector<Table> EvaluateStyles(const Evaluation& evaluation) {
       "Seconds that a classifier, which has seen the training clips, takes for the style that was "
       "asked for, of " +
       std::to_string(styles.size()) + "; no keys, " + std::to_string(kSeconds) + " s a dance.";
-  table.Begin({"right %"});
+  table.AddRow({"right %"});
   table.Put("real motion", 1, Mean(real));
   table.Put("danced", 1, Mean(danced));
   table.Put("chance", 1, 100.0 / styles.size());

@@ -69,8 +69,7 @@ struct Table {
   std::vector<TableRow> rows;
   std::optional<Plot> plot;
 
-  /// Begins a row.
-  void Begin(std::vector<std::string> labels) { rows.push_back({std::move(labels), {}}); }
+  void AddRow(std::vector<std::string> labels) { rows.push_back({std::move(labels), {}}); }
   /// Adds a cell to the last row; the first row defines the columns.
   void Put(const std::string& heading, int digits, Cell cell);
 };

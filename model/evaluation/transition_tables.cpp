@@ -76,7 +76,7 @@ Table NearnessTable(const Evaluation& evaluation, const Method& method) {
       const Figures another = judge.Run(method, options.temperature, static_cast<uint32_t>(sample));
       for (size_t i = 0; i < best.size(); ++i) best[i].l2p = std::min(best[i].l2p, another[i].l2p);
     }
-    table.Begin({std::to_string(frames)});
+    table.AddRow({std::to_string(frames)});
     table.Put("interpolation cm", 2, Mean(line, &WindowFigures::l2p, 100));
     table.Put("T = 0 ÷ interpolation", 3, RatioToLine(mean, line));
     table.Put("served ÷ interpolation", 3, RatioToLine(served, line));
@@ -113,9 +113,9 @@ std::vector<Table> EvaluateTransitions(const Evaluation& evaluation) {
     for (const Method& method : evaluation.methods) {
       Figures figures = judge.Run(method, temperature);
       if (method.kind == Method::Kind::kModel) judge.AddRawKeys(method, temperature, &figures);
-      table.Begin({std::to_string(frames), method.name});
+      table.AddRow({std::to_string(frames), method.name});
       AddCells(figures, line, real, &table);
-      keys.Begin({std::to_string(frames), method.name});
+      keys.AddRow({std::to_string(frames), method.name});
       AddKeyCells(figures, &keys);
       // The distance of methods without keys is large and would compress the other curves.
       if (method.kind != Method::Kind::kReal && method.keys)

@@ -24,7 +24,7 @@ struct WeighArguments {
 };
 
 void PutRow(const std::string& name, const WeighedDances& dances, Table* table) {
-  table->Begin({name});
+  table->AddRow({name});
   const auto put = [&](const std::string& heading, double (*figure)(const WeighedDance&),
                        double unit) {
     table->Put(heading, 1, MeanOfKnown(dances, figure, unit).value);

@@ -70,7 +70,7 @@ Weighed WeighAll(const Evaluation& evaluation, const ModelInfo& model, const Liv
 
 void PutWeights(const std::string& name, Cell real, Cell others, Cell footwork, Cell keyed,
                 Cell free, Table* table) {
-  table->Begin({name});
+  table->AddRow({name});
   table->Put("real motion", 2, real);
   table->Put("other dancers", 2, others);
   table->Put("real, footwork", 2, footwork);

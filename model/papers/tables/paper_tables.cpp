@@ -94,7 +94,7 @@ void AddLongRows(const Evaluation& evaluation, const Method& method, Table* tabl
   if (!dances) return;
   const EncodedFigures encoded = MeasureEncoded(evaluation, method);
   const bool keyed = method.keys && method.kind == Method::Kind::kModel;
-  table->Begin({method.name});
+  table->AddRow({method.name});
   table->Put("beat hit rate %", 1, music ? HitRate(equal) : Cell());
   table->Put("coverage", 2,
              music ? Mean(equal, [](const auto& one) { return one.beats.coverage; }) : Cell());
@@ -105,7 +105,7 @@ void AddLongRows(const Evaluation& evaluation, const Method& method, Table* tabl
   table->Put("diversity", 1, encoded.diversity);
   if (!music || !keyed) return;
   const std::vector<LongScore> on_beats = ScoreDances(evaluation, method, KeyTimes::kOnBeats);
-  beats->Begin({method.name});
+  beats->AddRow({method.name});
   beats->Put("keys each 100 frames %", 1, HitRate(equal));
   beats->Put("as many keys, on beats %", 1, HitRate(on_beats));
 }
@@ -131,7 +131,7 @@ std::vector<Table> EvaluatePaperTransitions(const Evaluation& evaluation) {
   }
   for (const Method& method : WithRaw(evaluation.methods)) {
     if (method.kind == Method::Kind::kReal) continue;
-    table.Begin({method.name});
+    table.AddRow({method.name});
     for (const Length& length : lengths) {
       const bool samples = method.kind == Method::Kind::kModel && method.network;
       const int count = samples ? std::max(1, evaluation.options.best_of) : 1;

@@ -181,7 +181,7 @@ Table ScoreStudy(const std::filesystem::path& key, std::span<const std::filesyst
     return Cell(std::accumulate(of.begin(), of.end(), 0.0) / count, BootstrapRatio(of, counts));
   };
   for (const auto& [method, of] : sums) {
-    table.Begin({method});
+    table.AddRow({method});
     table.Put("mean rank", 2, mean(of.ranks, of.counts));
     table.Put("first %", 0, mean(of.firsts, of.counts));
   }
