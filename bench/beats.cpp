@@ -26,7 +26,7 @@
 #include "model/audio/decode/decode.h"
 #include "model/audio/music/made_song.h"
 #include "model/core/grid.h"
-#include "model/dance/beat_report.h"
+#include "model/dance/beat_schedule.h"
 #include "model/dance/dance_music.h"
 #include "model/metrics/song_beats.h"
 
@@ -57,12 +57,12 @@ std::vector<double> HearLive(const std::vector<float>& mono) {
   feed.Push(mono, 0, [] {});
   const ModelInfo model;
   DanceMusic music(model, {}, &feed);
-  BeatReport report(30, &feed, std::nullopt);
+  BeatSchedule schedule(30, &feed, std::nullopt);
   for (int64_t from = 0; from + kTypicalFrames <= feed.ready(); from += kTypicalFrames) {
-    report.StartTransition(music.PlanFor({from, from + kTypicalFrames}, from).Hear().beats, from);
-    for (int64_t frame = from; frame < from + kTypicalFrames; ++frame) report.TakeAt(frame);
+    schedule.StartTransition(music.PlanFor({from, from + kTypicalFrames}, from).Hear().beats, from);
+    for (int64_t frame = from; frame < from + kTypicalFrames; ++frame) schedule.TakeAt(frame);
   }
-  return report.reported();
+  return schedule.reported();
 }
 
 /// Whether a server would not report a beat, because the music has fallen silent.

@@ -94,7 +94,7 @@ DanceChain::DanceChain(SampleQueue& queue, const ValidDance& config,
                  ? std::make_unique<AudioFeed>(config->audio->sample_rate, config->audio->channels,
                                                config->audio->first_sample, model_.hearing)
                  : nullptr),
-      report_(model_, config, audio_.get(), mailbox_),
+      reporter_(model_, config, audio_.get(), mailbox_),
       start_time_(PlaybackClock()),
       score_(model_, config, audio_.get()),
       next_frame_(first_frame_) {
@@ -158,7 +158,7 @@ std::function<void()> DanceChain::TakeNext() {
   if (jobs_.empty()) {
     if (!score_.timeline().complete() || !score_.EndsBy(next_frame_)) return {};
     return [this, end = next_frame_, controls = score_.controls()] {
-      report_.Summarise(end, controls);
+      reporter_.Summarise(end, controls);
     };
   }
   const int64_t ready = Ready();
@@ -171,7 +171,7 @@ std::function<void()> DanceChain::TakeNext() {
   std::optional<Key> key;
   if (next_frame_ + 1 == job->segment().to && job->run().arrival())
     key = score_.Current()->key;  // its hands may have changed since the job was made
-  return [this, job, frame = next_frame_++, key = std::move(key)] { Report(*job, frame, key); };
+  return [this, job, frame = next_frame_++, key = std::move(key)] { PostFrame(*job, frame, key); };
 }
 
 std::function<void()> DanceChain::FinishTransition() {
@@ -187,19 +187,19 @@ std::function<void()> DanceChain::FinishTransition() {
   if (score_.EndsBy(next_frame_)) Drop();
   Proceed();
   return [this, job = std::move(job), frame = next_frame_, danced = danced_] {
-    if (frame > job->segment().from) report_.End(frame, danced);
+    if (frame > job->segment().from) reporter_.End(frame, danced);
   };
 }
 
-void DanceChain::Report(const Transition& job, int64_t frame, const std::optional<Key>& key) {
+void DanceChain::PostFrame(const Transition& job, int64_t frame, const std::optional<Key>& key) {
   const int64_t from = job.segment().from;
   if (frame == from) {
-    report_.StartTransition(job.segment(), job.warnings(), job.beats());
+    reporter_.StartTransition(job.segment(), job.warnings(), job.beats());
     // A resumed dance may begin a frame later.
     if (audio_) audio_->Forget(from - model_.history_frames);
   }
-  report_.Add(frame, job.FrameAt(frame));
-  if (key) report_.Reach(*key, *job.run().arrival());
+  reporter_.Add(frame, job.FrameAt(frame));
+  if (key) reporter_.AddKey(*key, *job.run().arrival());
 }
 
 void DanceChain::Proceed() {

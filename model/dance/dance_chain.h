@@ -10,7 +10,7 @@
 
 #include "model/core/error.h"
 #include "model/dance/audio_feed.h"
-#include "model/dance/dance_report.h"
+#include "model/dance/dance_reporter.h"
 #include "model/dance/dance_score.h"
 #include "model/dance/dance_sink.h"
 #include "model/dance/dance_start.h"
@@ -50,8 +50,8 @@ class DanceChain : public Delivery<DanceSink> {
     return *audio_;
   }
   void FinishAudio();  // requires pushing_
-  // Reports a frame without the lock. `key`: the key that the frame reaches, if any.
-  void Report(const Transition& job, int64_t frame, const std::optional<Key>& key);
+  // Posts a frame without the lock. `key`: the key that the frame reaches, if any.
+  void PostFrame(const Transition& job, int64_t frame, const std::optional<Key>& key);
 
   double Seconds(int64_t frames) const { return static_cast<double>(frames) / model_.fps; }
   int64_t Ready() const { return audio_ ? audio_->ready() : 0; }
@@ -69,7 +69,7 @@ class DanceChain : public Delivery<DanceSink> {
   const int64_t first_frame_;
   std::mutex pushing_;                      // held while pushing music; locked before all others
   const std::unique_ptr<AudioFeed> audio_;  // null for a dance without music
-  DanceReport report_;                      // used by the thread that hands out
+  DanceReporter reporter_;                  // used by the thread that hands out
 
   // mutex_ guards the members below.
   double start_time_;  // start of playback, from which frames' deadlines count

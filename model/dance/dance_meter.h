@@ -27,7 +27,7 @@ class DanceMeter {
   /// completes.
   OutputFrames Add(int64_t number, const DanceFrame& frame);
   /// Adds the key reached at the last added frame.
-  void Reach(const KeyReached& key) { quality_.AddKey(key); }
+  void AddKey(const KeyReached& key) { quality_.AddKey(key); }
 
   /// Returns warnings about motion beyond the limits of human bodies since StartTransition.
   std::vector<Warning> TakeWarnings() { return watch_.Take(); }
@@ -36,7 +36,7 @@ class DanceMeter {
     return quality_.Report(music_beats);
   }
   /// All keys so far, without the accelerations around each.
-  const std::vector<KeyReached>& reached() const { return quality_.keys(); }
+  const std::vector<KeyReached>& keys() const { return quality_.keys(); }
   /// The continuation at `frame`, without the fields that only streams know: the last beat and the
   /// reached keys. `hears_beats`: whether the dance detects beats in the music.
   Continuation ContinuationAt(int64_t frame, const DancedState& danced, bool hears_beats) const;

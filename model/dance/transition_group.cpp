@@ -173,7 +173,7 @@ Slices<> TransitionGroup::Impl::Measure(const TransitionRun& run) {
   if (run.arrival()) {
     KeyReached reached = *run.arrival();
     reached.id = request_.target_id;
-    meter.Reach(reached);
+    meter.AddKey(reached);
   }
   double strain = 0;
   for (Warning& warning : meter.TakeWarnings()) {

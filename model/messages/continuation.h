@@ -18,7 +18,7 @@ struct Continuation {
   std::string fingerprint;  ///< of the model and build that danced
   /// The first sample that the resumed dance needs; none: unknown.
   std::optional<int64_t> audio_from_sample = {};
-  std::optional<double> last_beat = {};  ///< BeatReport::last at this frame
+  std::optional<double> last_beat = {};  ///< BeatSchedule::last at this frame
   std::optional<GroundFrame> stage =
       {};  ///< the middle of the floor, and the audience; its height is not read
   std::vector<KeyReached> reached = {};  ///< before `frame`, ascending, without accelerations

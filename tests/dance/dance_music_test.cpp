@@ -8,7 +8,7 @@
 #include <limits>
 #include <random>
 
-#include "model/dance/beat_report.h"
+#include "model/dance/beat_schedule.h"
 #include "tests/dance/dances.h"
 #include "tests/support/expect_error.h"
 
@@ -17,9 +17,9 @@ namespace choreo::dance_music_test {
 const ModelInfo model;  // at 30 frames a second
 
 // Returns the beats of a transition that begins.
-std::vector<Beat> Begin(DanceMusic* music, BeatReport* report, int64_t from, int64_t to) {
+std::vector<Beat> Begin(DanceMusic* music, BeatSchedule* schedule, int64_t from, int64_t to) {
   const std::vector<Beat> beats = music->PlanFor({from, to}, from).Hear().beats;
-  report->StartTransition(beats, from);
+  schedule->StartTransition(beats, from);
   return beats;
 }
 
@@ -103,14 +103,14 @@ TEST(MusicBeats, StopAPeriodAfterTheMusic) {
   enum class Who { kServer, kClient, kGiven };
   for (const Who who : {Who::kServer, Who::kClient, Who::kGiven}) {
     DanceMusic music(model, {}, &feed);
-    BeatReport report(30, &feed, std::nullopt);
+    BeatSchedule schedule(30, &feed, std::nullopt);
     if (who == Who::kClient) music.GiveBeats(by_client, 0, "beats", {}, 0.7);
     if (who == Who::kGiven) music.GiveBeats(by_client, 0, "beats");
     std::vector<Beat> beats;
     for (int64_t from = 0; from < 36 * 30; from += 60) {
-      Begin(&music, &report, from, from + 60);
+      Begin(&music, &schedule, from, from + 60);
       for (int64_t frame = from; frame < from + 60; ++frame)
-        std::ranges::copy(report.TakeAt(frame), std::back_inserter(beats));
+        std::ranges::copy(schedule.TakeAt(frame), std::back_inserter(beats));
     }
     int silent = 0;
     for (const Beat& beat : beats) {
@@ -128,12 +128,12 @@ TEST(MusicBeats, StopAPeriodAfterTheMusic) {
 
 TEST(MusicBeats, OfAWholeSongAreAsSureAsTheyWereFound) {
   DanceMusic music(model, {}, nullptr);
-  BeatReport report(30, nullptr, std::nullopt);
+  BeatSchedule schedule(30, nullptr, std::nullopt);
   music.SetWhole({.beats = {0.5, 1}, .downbeats = {1}, .confidence = {0.8, 0.9}});
-  Begin(&music, &report, 0, 60);
+  Begin(&music, &schedule, 0, 60);
   std::vector<Beat> beats;
   for (int64_t frame = 0; frame < 60; ++frame)
-    std::ranges::copy(report.TakeAt(frame), std::back_inserter(beats));
+    std::ranges::copy(schedule.TakeAt(frame), std::back_inserter(beats));
   ASSERT_EQ(beats.size(), 2U);
   EXPECT_EQ(beats[0].source, Beat::Source::kFound);
   EXPECT_EQ(beats[0].confidence, 0.8);
@@ -244,14 +244,14 @@ TEST(MusicBeats, AreReportedOnce) {
       SCOPED_TRACE(std::to_string(bpm) + (cut ? ", cut" : ", whole"));
       std::mt19937 random(static_cast<uint32_t>(bpm));
       DanceMusic music(model, {}, &feed);
-      BeatReport report(30, &feed, std::nullopt);
+      BeatSchedule schedule(30, &feed, std::nullopt);
       for (int64_t from = 0, to = 0; from < 900; from = to) {
         const int64_t frames = cut ? 1 + static_cast<int64_t>(random() % 100) : 60;
         to = from + (cut ? 1 + static_cast<int64_t>(random()) % frames : frames);
-        Begin(&music, &report, from, from + frames);
-        for (int64_t frame = from; frame < to; ++frame) report.TakeAt(frame);
+        Begin(&music, &schedule, from, from + frames);
+        for (int64_t frame = from; frame < to; ++frame) schedule.TakeAt(frame);
       }
-      std::vector<double> told = report.reported();
+      std::vector<double> told = schedule.reported();
       std::erase_if(told, [](double second) { return second < 8; });
       ASSERT_GT(told.size(), 16U);
       for (size_t i = 1; i < told.size(); ++i)
@@ -268,7 +268,7 @@ TEST(MusicBeats, RepeatedGridIsReportedOnce) {
   std::uniform_real_distribution<double> jitter(-0.005, 0.005);
   for (const int64_t lead : {0, 6, 20}) {
     DanceMusic beats(model, {}, nullptr);
-    BeatReport report(30, nullptr, std::nullopt);
+    BeatSchedule schedule(30, nullptr, std::nullopt);
     std::vector<Beat> told;
     for (int64_t from = 0; from < 600; from += 9) {
       std::vector<double> grid;
@@ -277,9 +277,9 @@ TEST(MusicBeats, RepeatedGridIsReportedOnce) {
         if (0.5 * beat > static_cast<double>(from) / 30) grid.push_back(0.5 * beat + off);
       }
       if (!grid.empty()) beats.GiveBeats(grid, from + lead, "music_beats");
-      Begin(&beats, &report, from, from + 9);
+      Begin(&beats, &schedule, from, from + 9);
       for (int64_t frame = from; frame < from + 9; ++frame) {
-        for (const Beat& beat : report.TakeAt(frame)) {
+        for (const Beat& beat : schedule.TakeAt(frame)) {
           told.push_back(beat);
           EXPECT_LE(beat.frame, frame) << "it has been danced";
           EXPECT_NEAR(static_cast<double>(beat.frame), 30 * beat.time_s, 1);
@@ -297,14 +297,14 @@ TEST(MusicBeats, AreDetectedAroundGivenOnes) {
   feed.Push(Song(22050, 20), 0, [] {});
   feed.Finish();
   DanceMusic music(model, {}, &feed);
-  BeatReport report(30, &feed, std::nullopt);
+  BeatSchedule schedule(30, &feed, std::nullopt);
   EXPECT_EQ(music.GiveBeats(std::vector<double>{9, 11.7, 12.2, 12.7}, 284, "beats"), 1);
   EXPECT_EQ(music.GiveBeats(std::vector<double>{12.4, 12.9}, 284, "beats"), 0);
   std::vector<Beat> beats;
   for (int64_t from = 224; from < 524; from += 60) {
-    Begin(&music, &report, from, from + 60);
+    Begin(&music, &schedule, from, from + 60);
     for (int64_t frame = from; frame < from + 60; ++frame)
-      for (const Beat& beat : report.TakeAt(frame)) beats.push_back(beat);
+      for (const Beat& beat : schedule.TakeAt(frame)) beats.push_back(beat);
   }
   std::vector<double> given;
   for (size_t i = 0; i < beats.size(); ++i) {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "model/dance/audio_feed.h"
-#include "model/dance/beat_report.h"
+#include "model/dance/beat_schedule.h"
 #include "model/dance/controls/control_track.h"
 #include "model/dance/dance_meter.h"
 #include "model/dance/dance_sink.h"
@@ -22,19 +22,19 @@ inline void PostEvent(Mailbox<DanceSink>& mailbox, const DanceEvent& event) {
 }
 
 /// Reports a dance's frames, beats, keys, continuations and summary to its sink. Not thread-safe.
-class DanceReport {
+class DanceReporter {
  public:
   /// `audio`: null without music. Model, audio and mailbox must outlive this object.
-  DanceReport(const ModelInfo& model, const ValidDance& config, const AudioFeed* audio,
-              Mailbox<DanceSink>& mailbox);
+  DanceReporter(const ModelInfo& model, const ValidDance& config, const AudioFeed* audio,
+                Mailbox<DanceSink>& mailbox);
 
   /// Starts a transition.
   void StartTransition(const Segment& segment, const std::vector<Warning>& warnings,
                        const std::vector<Beat>& beats);
   /// Adds the next frame, with number `number`.
   void Add(int64_t number, const DanceFrame& frame);
-  /// Records that the last added frame reaches this key.
-  void Reach(const Key& key, KeyReached reached);
+  /// Adds the key reached at the last added frame.
+  void AddKey(const Key& key, KeyReached reached);
   /// Ends a transition. The dance continues with `frame`.
   void End(int64_t frame, const DancedState& danced);
   /// Reports the summary of a dance that ended before `frame` and had these controls.
@@ -45,7 +45,7 @@ class DanceReport {
 
   const DanceConfig config_;
   Mailbox<DanceSink>& mailbox_;
-  BeatReport beats_;
+  BeatSchedule beats_;
   DanceMeter meter_;
 };
 

@@ -1,4 +1,4 @@
-#include "model/dance/dance_report.h"
+#include "model/dance/dance_reporter.h"
 
 #include <utility>
 
@@ -13,8 +13,8 @@ std::optional<Pose> PoseBefore(const DanceStart& start) {
 
 }  // namespace
 
-DanceReport::DanceReport(const ModelInfo& model, const ValidDance& config, const AudioFeed* audio,
-                         Mailbox<DanceSink>& mailbox)
+DanceReporter::DanceReporter(const ModelInfo& model, const ValidDance& config,
+                             const AudioFeed* audio, Mailbox<DanceSink>& mailbox)
     : config_(*config),
       mailbox_(mailbox),
       beats_(model.fps, audio,
@@ -22,14 +22,14 @@ DanceReport::DanceReport(const ModelInfo& model, const ValidDance& config, const
       meter_(model, config_, PoseBefore(config_),
              config->continuation ? config->continuation->reached : std::vector<KeyReached>()) {}
 
-void DanceReport::StartTransition(const Segment& segment, const std::vector<Warning>& warnings,
-                                  const std::vector<Beat>& beats) {
+void DanceReporter::StartTransition(const Segment& segment, const std::vector<Warning>& warnings,
+                                    const std::vector<Beat>& beats) {
   for (const Warning& warning : warnings) Post(warning);
   beats_.StartTransition(beats, segment.from);
   meter_.StartTransition(segment);
 }
 
-void DanceReport::Add(int64_t number, const DanceFrame& frame) {
+void DanceReporter::Add(int64_t number, const DanceFrame& frame) {
   OutputFrames output = meter_.Add(number, frame);
   if (!output.poses.empty()) {
     mailbox_.Post([output = std::move(output)](DanceSink& sink) {
@@ -39,25 +39,25 @@ void DanceReport::Add(int64_t number, const DanceFrame& frame) {
   for (const Beat& beat : beats_.TakeAt(number)) Post(beat);
 }
 
-void DanceReport::Reach(const Key& key, KeyReached reached) {
+void DanceReporter::AddKey(const Key& key, KeyReached reached) {
   reached.id = key.id;
-  meter_.Reach(reached);
+  meter_.AddKey(reached);
   reached.hands = key.hands;
   Post(reached);
 }
 
-void DanceReport::End(int64_t frame, const DancedState& danced) {
+void DanceReporter::End(int64_t frame, const DancedState& danced) {
   for (const Warning& warning : meter_.TakeWarnings()) Post(warning);
   Continuation continuation =
       meter_.ContinuationAt(frame, danced, /*hears_beats=*/config_.music_beats.empty());
   continuation.last_beat = beats_.last();
-  continuation.reached = meter_.reached();
+  continuation.reached = meter_.keys();
   mailbox_.Post([continuation = std::move(continuation)](DanceSink& sink) {
     sink.OnContinuation(continuation);
   });
 }
 
-void DanceReport::Summarise(int64_t frame, const ControlTrack& controls) {
+void DanceReporter::Summarise(int64_t frame, const ControlTrack& controls) {
   for (const Warning& warning : controls.BehindEnd(frame)) Post(warning);
   const QualityReport report = meter_.Report(beats_.reported());
   for (const Warning& warning : controls.Missed(report)) Post(warning);

@@ -1,4 +1,4 @@
-#include "model/dance/beat_report.h"
+#include "model/dance/beat_schedule.h"
 
 #include <algorithm>
 #include <cmath>
@@ -24,7 +24,7 @@ bool HasOnset(const AudioFeed& audio, int64_t frame) {
 
 }  // namespace
 
-void BeatReport::StartTransition(std::span<const Beat> beats, int64_t from) {
+void BeatSchedule::StartTransition(std::span<const Beat> beats, int64_t from) {
   const std::vector<double> seconds = SecondsOf(beats);
   ahead_.clear();
   std::optional<double> last = last_;
@@ -39,7 +39,7 @@ void BeatReport::StartTransition(std::span<const Beat> beats, int64_t from) {
   }
 }
 
-std::vector<Beat> BeatReport::TakeAt(int64_t frame) {
+std::vector<Beat> BeatSchedule::TakeAt(int64_t frame) {
   std::vector<Beat> beats;
   for (; !ahead_.empty() && ahead_.front().beat.time_s < Seconds(frame + 1); ahead_.pop_front()) {
     auto [beat, step] = ahead_.front();

@@ -12,11 +12,11 @@
 namespace choreo {
 
 /// Assigns each beat of a dance to the frame with which it is reported. Not thread-safe.
-class BeatReport {
+class BeatSchedule {
  public:
   /// `audio`: the dance's audio, or null. `last`: for a resumed dance, the value of last() at its
   /// first frame.
-  BeatReport(double fps, const AudioFeed* audio, std::optional<double> last)
+  BeatSchedule(double fps, const AudioFeed* audio, std::optional<double> last)
       : fps_(fps), audio_(audio), last_(last) {}
 
   /// Starts the transition that begins at `from` and has these beats.
