@@ -7,7 +7,8 @@ namespace choreo {
 DanceMeter::DanceMeter(const ModelInfo& model, const DanceStart& start,
                        const std::optional<Pose>& before, std::vector<KeyReached> reached)
     : model_(model),
-      start_(start),
+      audio_(start.audio),
+      dynamics_(start.Dynamics()),
       output_(model.fps, start.output_fps, start.FirstFrame(), before),
       quality_(model.skeleton, model.fps, start.FirstFrame(), std::move(reached)),
       watch_(model.skeleton, model.fps, before) {}
@@ -25,8 +26,9 @@ OutputFrames DanceMeter::Add(int64_t number, const DanceFrame& frame) {
 Continuation DanceMeter::ContinuationAt(int64_t frame, const DancedState& danced,
                                         bool hears_beats) const {
   Continuation continuation{frame, danced.history, model_.fingerprint};
-  if (start_.audio)
-    continuation.audio_from_sample = ResumeSample(start_, frame, model_, hears_beats);
+  if (audio_) {
+    continuation.audio_from_sample = ResumeSample(*audio_, dynamics_, frame, model_, hears_beats);
+  }
   continuation.stage = danced.stage;
   return continuation;
 }

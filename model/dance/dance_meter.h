@@ -17,8 +17,8 @@ namespace choreo {
 /// thread-safe.
 class DanceMeter {
  public:
-  /// `before`: the pose before the first frame, if any. `reached`: keys reached before it. Model
-  /// and start must outlive this object.
+  /// `before`: the pose before the first frame, if any. `reached`: keys reached before it. The
+  /// model must outlive this object.
   DanceMeter(const ModelInfo& model, const DanceStart& start, const std::optional<Pose>& before,
              std::vector<KeyReached> reached = {});
 
@@ -43,7 +43,8 @@ class DanceMeter {
 
  private:
   const ModelInfo& model_;
-  const DanceStart& start_;
+  const std::optional<DanceStart::Audio> audio_;
+  const double dynamics_;
   OutputRate output_;
   QualityMeter quality_;
   BodyWatch watch_;

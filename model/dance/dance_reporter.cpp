@@ -15,11 +15,11 @@ std::optional<Pose> PoseBefore(const DanceStart& start) {
 
 DanceReporter::DanceReporter(const ModelInfo& model, const ValidDance& config,
                              const AudioFeed* audio, Mailbox<DanceSink>& mailbox)
-    : config_(*config),
+    : hears_beats_(config->music_beats.empty()),
       mailbox_(mailbox),
       beats_(model.fps, audio,
              config->continuation ? config->continuation->last_beat : std::nullopt),
-      meter_(model, config_, PoseBefore(config_),
+      meter_(model, *config, PoseBefore(*config),
              config->continuation ? config->continuation->reached : std::vector<KeyReached>()) {}
 
 void DanceReporter::StartTransition(const Segment& segment, const std::vector<Warning>& warnings,
@@ -48,8 +48,7 @@ void DanceReporter::AddKey(const Key& key, KeyReached reached) {
 
 void DanceReporter::End(int64_t frame, const DancedState& danced) {
   for (const Warning& warning : meter_.TakeWarnings()) Post(warning);
-  Continuation continuation =
-      meter_.ContinuationAt(frame, danced, /*hears_beats=*/config_.music_beats.empty());
+  Continuation continuation = meter_.ContinuationAt(frame, danced, hears_beats_);
   continuation.last_beat = beats_.last();
   continuation.reached = meter_.keys();
   mailbox_.Post([continuation = std::move(continuation)](DanceSink& sink) {

@@ -43,7 +43,7 @@ class DanceReporter {
  private:
   void Post(const DanceEvent& event) { PostEvent(mailbox_, event); }
 
-  const DanceConfig config_;
+  const bool hears_beats_;  // whether the dance detects beats in the music
   Mailbox<DanceSink>& mailbox_;
   BeatSchedule beats_;
   DanceMeter meter_;

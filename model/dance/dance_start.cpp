@@ -147,10 +147,10 @@ int LatencyFrames(const DanceStart& config, const ModelInfo& model) {
   return static_cast<int>(std::ceil(seconds * config.output_fps));
 }
 
-int64_t ResumeSample(const DanceStart& start, int64_t first_frame, const ModelInfo& model,
-                     bool beats) {
-  const auto& [rate, channels, first_sample] = *start.audio;
-  const int heard = start.Dynamics() > 0 ? kSoundMemory : beats ? kBeatMemory : 0;
+int64_t ResumeSample(const DanceStart::Audio& audio, double dynamics, int64_t first_frame,
+                     const ModelInfo& model, bool beats) {
+  const auto& [rate, channels, first_sample] = audio;
+  const int heard = dynamics > 0 ? kSoundMemory : beats ? kBeatMemory : 0;
   if (heard == 0) return LatestFirstSample(first_frame, rate, model);
   const int64_t row = std::max<int64_t>(0, first_frame - heard - kRowSoundMemory);
   return std::max(first_sample, FeatureStream::FirstSampleFor(row, rate));

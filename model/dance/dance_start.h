@@ -104,9 +104,9 @@ int64_t LatestFirstSample(int64_t first_frame, double sample_rate, const ModelIn
 /// The sample at which the audio of a dance that continues from `first_frame` must begin, so that
 /// the dance equals an uninterrupted one: LatestFirstSample, or an earlier one if the music's
 /// energy or, with `beats`, the detection of beats looks further back. Never before the dance's
-/// first sample.
-int64_t ResumeSample(const DanceStart& start, int64_t first_frame, const ModelInfo& model,
-                     bool beats);
+/// first sample. `dynamics`: DanceManner::Dynamics.
+int64_t ResumeSample(const DanceStart::Audio& audio, double dynamics, int64_t first_frame,
+                     const ModelInfo& model, bool beats);
 
 /// How far frames lag behind the music, in output frames. Includes the audio window, resampling
 /// and, for a model that hears, one transition of typical length (one to a key may be longer).

@@ -24,7 +24,8 @@ std::unique_ptr<AudioFeed> Feed(const ModelInfo& model, GroupRequest* request) {
   if (!request->audio) return nullptr;
   const std::vector<float> samples = std::exchange(request->samples, {});
   const auto& [rate, channel_count, first_sample] = *request->audio;
-  const int64_t first = ResumeSample(*request, request->FirstFrame(), model, /*beats=*/false);
+  const int64_t first = ResumeSample(*request->audio, request->Dynamics(), request->FirstFrame(),
+                                     model, /*beats=*/false);
   const size_t channels = static_cast<size_t>(channel_count);
   const size_t skipped =
       std::min(static_cast<size_t>(first - first_sample) * channels, samples.size());
