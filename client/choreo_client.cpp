@@ -69,7 +69,7 @@ v1::GenerateTransitionRequest MakeRequest(const TransitionRequest& request) {
 /// Collects the answers of one GenerateTransition.
 class TransitionCollector {
  public:
-  void Take(const v1::GenerateTransitionResponse& response) {
+  void Add(const v1::GenerateTransitionResponse& response) {
     if (response.has_header()) {
       result_.header = FromProto(response.header());
     } else if (response.has_frames()) {
@@ -271,7 +271,7 @@ TransitionResult Client::GenerateTransition(const TransitionRequest& request) co
                     TransitionCollector collector;
                     const auto reader = server.stub->GenerateTransition(context, message);
                     v1::GenerateTransitionResponse response;
-                    while (reader->Read(&response)) collector.Take(response);
+                    while (reader->Read(&response)) collector.Add(response);
                     grpc::Status status = reader->Finish();
                     if (!status.ok()) return status;
                     if (!collector.complete()) {

@@ -110,7 +110,7 @@ class Edit {
     SpliceContacts(part, first, end);
   }
 
-  EditedDance Take() { return std::move(result_); }
+  EditedDance TakeResult() { return std::move(result_); }
   EditedDance& result() { return result_; }
 
  private:
@@ -301,7 +301,7 @@ EditedDance DanceThrough(Edit& work, const Way& way) {
     Append(danced, leads_on, &part, &work);
   }
   SpliceWay(way, part, &work);
-  return work.Take();
+  return work.TakeResult();
 }
 
 /// Returns candidates of the one transition that spans the way.
@@ -314,7 +314,7 @@ std::vector<EditedDance> DanceCandidates(Edit& work, const Way& way, int takes) 
     Part part{way.from + 1, {}, {}};
     Append(candidate, way.leads_on, &part, &take);
     SpliceWay(way, part, &take);
-    danced.push_back(take.Take());
+    danced.push_back(take.TakeResult());
   }
   return danced;
 }
@@ -436,7 +436,7 @@ EditedDance CloseLoop(const Client& client, const FinishedDance& dance, const Ed
                {back.motion.frames.begin(), back.motion.frames.end() - 1},
                {back.contacts.begin(), back.contacts.end() - 1}},
               work.pose(0));
-  return work.Take();
+  return work.TakeResult();
 }
 
 }  // namespace choreo::client

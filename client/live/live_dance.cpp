@@ -222,14 +222,14 @@ void LiveDance::ShowFigures(double seconds) {
 
 void LiveDance::Read() {
   try {
-    while (const std::optional<client::Message> message = dance_->Next()) Take(*message);
+    while (const std::optional<client::Message> message = dance_->Next()) Handle(*message);
   } catch (...) {
     failure_ = std::current_exception();
   }
   over_ = true;
 }
 
-void LiveDance::Take(const client::Message& message) {
+void LiveDance::Handle(const client::Message& message) {
   if (const auto* header = std::get_if<client::Header>(&message)) {
     header_ = *header;
     begun_ = true;
@@ -240,7 +240,7 @@ void LiveDance::Take(const client::Message& message) {
         header->fps, began_ + std::chrono::duration_cast<PosePlayer::Clock::duration>(behind),
         observer_.show);
   } else if (const auto* block = std::get_if<client::FrameBlock>(&message)) {
-    TakeFrames(*block);
+    HandleFrames(*block);
   } else if (const auto* warning = std::get_if<client::Warning>(&message)) {
     Note(Rounded(static_cast<double>(warning->frame) / header_.model_fps) +
          " s: " + warning->message);
@@ -266,7 +266,7 @@ void LiveDance::Take(const client::Message& message) {
   }
 }
 
-void LiveDance::TakeFrames(const client::FrameBlock& block) {
+void LiveDance::HandleFrames(const client::FrameBlock& block) {
   const auto now = PosePlayer::Clock::now();
   motion_.frames.insert(motion_.frames.end(), block.poses.begin(), block.poses.end());
   contacts_.insert(contacts_.end(), block.contacts.begin(), block.contacts.end());

@@ -100,8 +100,8 @@ class LiveDance {
 
   // The functions below run on the reading thread.
   void Read();
-  void Take(const client::Message& message);
-  void TakeFrames(const client::FrameBlock& block);
+  void Handle(const client::Message& message);
+  void HandleFrames(const client::FrameBlock& block);
   void Note(const std::string& text);
 
   const client::Client& client_;

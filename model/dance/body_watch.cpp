@@ -51,7 +51,7 @@ void BodyWatch::WarnOfFlight(int64_t frames) {
   flights_.push_back(FlightTooLong(*aloft_from_, seconds, key_id_));
 }
 
-std::vector<Warning> BodyWatch::Take() {
+std::vector<Warning> BodyWatch::TakeWarnings() {
   std::vector<Warning> warnings;
   if (fastest_.m_per_s > kFastestJoint) {
     warnings.push_back(JointTooFast(skeleton_, fastest_.frame, static_cast<int>(fastest_.joint),

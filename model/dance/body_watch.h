@@ -24,7 +24,7 @@ class BodyWatch {
   void Add(int64_t frame, const Pose& pose);
   /// Returns warnings about limits exceeded since StartTransition: one for the fastest step, and
   /// one for each flight.
-  std::vector<Warning> Take();
+  std::vector<Warning> TakeWarnings();
 
  private:
   void WatchFlight(int64_t frame, const Eigen::Matrix3Xd& joints);

@@ -30,7 +30,7 @@ class DanceMeter {
   void AddKey(const KeyReached& key) { quality_.AddKey(key); }
 
   /// Returns warnings about motion beyond the limits of human bodies since StartTransition.
-  std::vector<Warning> TakeWarnings() { return watch_.Take(); }
+  std::vector<Warning> TakeWarnings() { return watch_.TakeWarnings(); }
   /// The report on all frames added so far. `music_beats`: seconds, ascending.
   QualityReport Report(std::span<const double> music_beats) const {
     return quality_.Report(music_beats);

@@ -31,7 +31,7 @@ void CheckPassages(std::span<const Passage> passages, const std::string& field) 
 
 Recurrence::Recurrence(double fps, std::span<const Passage> passages)
     : fps_(fps), count_(passages.size()) {
-  Take(passages, 0);
+  Apply(passages, 0);
 }
 
 void Recurrence::Give(std::span<const Passage> passages, int64_t from, const std::string& field) {
@@ -46,10 +46,10 @@ void Recurrence::Give(std::span<const Passage> passages, int64_t from, const std
 
 void Recurrence::StartTransition(int64_t frame) {
   for (; !given_.empty() && given_.front().from <= frame; given_.pop_front())
-    Take(given_.front().passages, given_.front().from);
+    Apply(given_.front().passages, given_.front().from);
 }
 
-void Recurrence::Take(std::span<const Passage> passages, int64_t from) {
+void Recurrence::Apply(std::span<const Passage> passages, int64_t from) {
   if (passages.empty()) return;
   const auto frame = [this](double seconds) -> int64_t { return std::llround(seconds * fps_); };
   const int64_t begin = std::max<int64_t>(from, frame(passages.front().from));

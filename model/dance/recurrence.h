@@ -52,7 +52,7 @@ class Recurrence {
     int64_t from;
     std::vector<Passage> passages;
   };
-  void Take(std::span<const Passage> passages, int64_t from);
+  void Apply(std::span<const Passage> passages, int64_t from);
 
   double fps_;
   size_t count_ = 0;                // passages given in total

@@ -96,7 +96,7 @@ class CallSession : public Call {
   /// `lost`: the status was never sent. gRPC first reports a dead connection as a half-close, so
   /// the dance may have finished for nobody.
   void Release(bool lost) noexcept try {
-    if (const auto dance = TakeEnd()) dance->Cancel();
+    if (const auto dance = NoteEnd()) dance->Cancel();
     serving_.frames.GiveBack(this);
     {
       const std::lock_guard lock(mutex_);
@@ -182,7 +182,7 @@ class CallSession : public Call {
   /// first reason counts.
   void End(const grpc::Status& status, Ending ending = Ending::kAfterQueued,
            std::optional<Refusal> refusal = {}) {
-    const std::shared_ptr<Dance> dance = TakeEnd(refusal);
+    const std::shared_ptr<Dance> dance = NoteEnd(refusal);
     serving_.frames.GiveBack(this);
     outbox_.End(status, ending);
     if (dance) dance->Cancel();
@@ -241,7 +241,7 @@ class CallSession : public Call {
   }
 
   // Records that the call is over, and why. Returns its dance, or null.
-  std::shared_ptr<Dance> TakeEnd(std::optional<Refusal> refusal = {}) {
+  std::shared_ptr<Dance> NoteEnd(std::optional<Refusal> refusal = {}) {
     const std::lock_guard lock(mutex_);
     if (!refusal_) refusal_ = refusal;
     ended_ = true;

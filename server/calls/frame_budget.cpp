@@ -17,21 +17,22 @@ std::string Percent(double share) { return std::to_string(std::lround(100 * shar
 
 }  // namespace
 
-void FrameBudget::TakeDance(const void* call, const SampleQueue& model, const std::string& party) {
-  Take(call, {&model, party, model.model().fps, true});
+void FrameBudget::ReserveDance(const void* call, const SampleQueue& model,
+                               const std::string& party) {
+  Reserve(call, {&model, party, model.model().fps, true});
 }
 
-void FrameBudget::TakeTransition(const void* call, const SampleQueue& model,
-                                 const std::string& party, int frames) {
+void FrameBudget::ReserveTransition(const void* call, const SampleQueue& model,
+                                    const std::string& party, int frames) {
   double frames_per_second = frames / kTransitionSeconds;
   const FrameShares shares = this->shares();
   const double most = std::min(shares.of_all, shares.of_lone_peer) / 2;
   const double load = model.LoadOf(frames_per_second);
   if (load > most) frames_per_second *= most / load;
-  Take(call, {&model, party, frames_per_second, false});
+  Reserve(call, {&model, party, frames_per_second, false});
 }
 
-void FrameBudget::Take(const void* call, Charge charge) {
+void FrameBudget::Reserve(const void* call, Charge charge) {
   const FrameShares shares = this->shares();
   const double of_party = MostOf(shares, charge.party, LoadOf(charge));
   const std::lock_guard lock(mutex_);

@@ -35,14 +35,14 @@ class FrameBudget {
                        const ServingCost* serving = nullptr)
       : has_rival_(std::move(has_rival)), serving_(serving), shares_(shares) {}
 
-  /// Charges a dance at playing speed, however fast its music arrives. Throws Refused if it exceeds
-  /// the time left. A lone caller's first call is always accepted, so that slow engines can serve
-  /// one at a time. Call once per call. `call`: any address that identifies the call.
-  void TakeDance(const void* call, const SampleQueue& model, const std::string& party);
-  /// Charges a transition of this many frames, summed over its candidates. Call once per call.
-  /// Charges at most half of all time, because a transition yields to dances anyway.
-  void TakeTransition(const void* call, const SampleQueue& model, const std::string& party,
-                      int frames);
+  /// Reserves time for a dance at playing speed, however fast its music arrives. Throws Refused if
+  /// it exceeds the time left. A lone caller's first call is always accepted, so that slow engines
+  /// can serve one at a time. Call once per call. `call`: any address that identifies the call.
+  void ReserveDance(const void* call, const SampleQueue& model, const std::string& party);
+  /// Reserves time for a transition of this many frames, summed over its candidates. Call once per
+  /// call. Reserves at most half of all time, because a transition yields to dances anyway.
+  void ReserveTransition(const void* call, const SampleQueue& model, const std::string& party,
+                         int frames);
   /// Reserves by these shares from now on; calls in progress keep their charges.
   void SetShares(const FrameShares& shares);
   /// Ends a call's charge. Ignores calls that were not charged.
@@ -65,7 +65,7 @@ class FrameBudget {
     bool dances;
   };
 
-  void Take(const void* call, Charge charge);
+  void Reserve(const void* call, Charge charge);
   double LoadOf(const Charge& charge) const;
 
   // The load of all calls or, with `party`, of one caller's calls, plus `more`. Requires mutex_.

@@ -19,7 +19,7 @@ class Player {
   /// Records that the frames from `first_frame` on were generated at `made` and sent at `sent`.
   /// Returns by how many seconds sending made them late for playback. Excludes the time until
   /// `made`, which SampleQueue measures.
-  double Take(int64_t first_frame, Clock::time_point made, Clock::time_point sent) {
+  double Record(int64_t first_frame, Clock::time_point made, Clock::time_point sent) {
     const Seconds played(static_cast<double>(first_frame) / fps_);
     const Seconds begin = Seconds(made.time_since_epoch()) - played;
     begun_ = std::max(begun_.value_or(begin), begin);

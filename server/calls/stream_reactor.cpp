@@ -59,7 +59,7 @@ class DanceSession final : public CallSession<DanceResponse, DanceStream>,
   void Handle(const DanceRequest& request) {
     Guard([&] {
       Admit();
-      Take(request);
+      Dispatch(request);
     });
   }
 
@@ -117,10 +117,10 @@ class DanceSession final : public CallSession<DanceResponse, DanceStream>,
   void OnSent(const DanceResponse& answer, Clock::time_point queued) override {
     if (!answer.has_frames()) return;
     serving_.tally.sending_lateness_s.Add(
-        player_->Take(answer.frames().first_frame(), queued, Clock::now()));
+        player_->Record(answer.frames().first_frame(), queued, Clock::now()));
   }
 
-  void Take(const DanceRequest& request) {
+  void Dispatch(const DanceRequest& request) {
     if (request.request_case() == DanceRequest::REQUEST_NOT_SET) {
       throw InvalidArgument("request", "empty; one of its fields must be set");
     }
@@ -130,10 +130,10 @@ class DanceSession final : public CallSession<DanceResponse, DanceStream>,
     if (!stream) return;
     switch (request.request_case()) {
       case DanceRequest::kAudio:
-        return TakeAudio(*stream, request.audio());
+        return HandleAudio(*stream, request.audio());
       case DanceRequest::kKeyframe:
         return Number(request, request.keyframe().id(),
-                      [&] { TakeKeyframe(*stream, request.keyframe()); });
+                      [&] { HandleKeyframe(*stream, request.keyframe()); });
       case DanceRequest::kRemoveKeyframe:
         return Number(request, request.remove_keyframe().id(),
                       [&] { RemoveKeyframe(*stream, request.remove_keyframe().id()); });
@@ -182,7 +182,7 @@ class DanceSession final : public CallSession<DanceResponse, DanceStream>,
     const ModelInfo& model = found->model();
     const ValidDance config = ToDanceConfig(message, model, Serving::FreshSeed());
     Name(model, config->seed);
-    serving_.frames.TakeDance(this, *found, party());
+    serving_.frames.ReserveDance(this, *found, party());
     if (message.has_continuation() || IsNamedResumed()) NoteResumed(config->FirstFrame());
     queue_ = found;
     encoding_ = message.encoding();
@@ -198,7 +198,7 @@ class DanceSession final : public CallSession<DanceResponse, DanceStream>,
 
   bool SendsFile() const { return audio_ && audio_->encoding() == v1::AUDIO_ENCODING_FILE; }
 
-  void TakeAudio(DanceStream& stream, const v1::Audio& audio) {
+  void HandleAudio(DanceStream& stream, const v1::Audio& audio) {
     if (!audio_) throw WithoutAudioFormat("audio");
     if (!SendsFile()) {
       const auto samples = ReadSamples(audio, *audio_);
@@ -234,7 +234,7 @@ class DanceSession final : public CallSession<DanceResponse, DanceStream>,
     });
   }
 
-  void TakeKeyframe(DanceStream& stream, const v1::Keyframe& keyframe) {
+  void HandleKeyframe(DanceStream& stream, const v1::Keyframe& keyframe) {
     std::optional<KeyMoment> when;
     try {
       when = wire::ToMoment(keyframe, "keyframe");

@@ -41,7 +41,8 @@ class TransitionSession final : public CallSession<v1::GenerateTransitionRespons
       // Validates before decoding, so that an invalid request costs no decoding.
       ValidGroup request = ToGroupRequest(message, queue_->model(), Serving::FreshSeed());
       Name(queue_->model(), request->seed);
-      serving_.frames.TakeTransition(this, *queue_, party(), request->candidates * request->frames);
+      serving_.frames.ReserveTransition(this, *queue_, party(),
+                                        request->candidates * request->frames);
       if (message.config().audio_format().encoding() != v1::AUDIO_ENCODING_FILE) {
         return Begin(message, std::move(request));
       }

@@ -86,9 +86,9 @@ void Tell(FrameMeter::Flood flood, const std::string& peer) {
 }
 
 /// `connection`: null if no longer known.
-bool Take(FrameMeter& meter, const void* bytes, size_t count, const Guarded* connection) {
+bool MeterBytes(FrameMeter& meter, const void* bytes, size_t count, const Guarded* connection) {
   if (meter.flooded()) return false;  // gRPC tries again before it closes the connection
-  const FrameMeter::Flood flood = meter.Take({static_cast<const uint8_t*>(bytes), count});
+  const FrameMeter::Flood flood = meter.Read({static_cast<const uint8_t*>(bytes), count});
   if (flood == FrameMeter::Flood::kNone) return true;
   if (connection != nullptr && connection->held_off)
     connection->held_off->Add(AddressOf(connection->peer));
@@ -97,10 +97,10 @@ bool Take(FrameMeter& meter, const void* bytes, size_t count, const Guarded* con
 }
 
 /// Whether the received bytes may be passed to gRPC.
-bool TakeMessage(Guarded& connection, const msghdr& message, size_t count) {
+bool MeterMessage(Guarded& connection, const msghdr& message, size_t count) {
   for (size_t i = 0; i < message.msg_iovlen && count > 0; ++i) {
     const size_t part = std::min(count, message.msg_iov[i].iov_len);
-    if (!Take(connection.meter, message.msg_iov[i].iov_base, part, &connection)) return false;
+    if (!MeterBytes(connection.meter, message.msg_iov[i].iov_base, part, &connection)) return false;
     count -= part;
   }
   return true;
@@ -172,7 +172,7 @@ __attribute__((visibility("default"))) ssize_t recvmsg(int descriptor, msghdr* m
     connection->handshake.compare_exchange_strong(not_begun, choreo::Guarded::Handshake::kBegun);
     return count;
   }
-  if (choreo::TakeMessage(*connection, *message, static_cast<size_t>(count))) return count;
+  if (choreo::MeterMessage(*connection, *message, static_cast<size_t>(count))) return count;
   errno = ECONNRESET;
   return -1;
 }
@@ -189,7 +189,7 @@ __attribute__((visibility("default"))) int SSL_read(SSL* ssl, void* bytes, int s
   const int count = next(ssl, bytes, size);
   if (count <= 0 || SSL_is_server(ssl) == 0) return count;
   const auto connection = choreo::last_read.lock();
-  if (choreo::Take(choreo::MeterOf(ssl), bytes, static_cast<size_t>(count), connection.get()))
+  if (choreo::MeterBytes(choreo::MeterOf(ssl), bytes, static_cast<size_t>(count), connection.get()))
     return count;
   return -1;  // SSL_get_error reports this as a transport failure
 }

@@ -9,7 +9,7 @@ constexpr int kData = 0, kHeaders = 1, kContinuation = 9;
 
 }  // namespace
 
-FrameMeter::Flood FrameMeter::Take(std::span<const uint8_t> bytes, Clock::time_point now) {
+FrameMeter::Flood FrameMeter::Read(std::span<const uint8_t> bytes, Clock::time_point now) {
   if (now >= second_ends_) {
     second_ends_ = now + std::chrono::seconds(1);
     lacking_ = 0;
@@ -24,14 +24,14 @@ FrameMeter::Flood FrameMeter::Take(std::span<const uint8_t> bytes, Clock::time_p
     if (head_bytes_ < kFrameHead) continue;
     head_bytes_ = 0;
     skipped_ = size_t{head_[0]} << 16 | size_t{head_[1]} << 8 | head_[2];
-    const Flood flood = TakeFrame(head_[3], skipped_);
+    const Flood flood = ReadFrame(head_[3], skipped_);
     flooded_ = flood != Flood::kNone;
     if (flooded_) return flood;
   }
   return Flood::kNone;
 }
 
-FrameMeter::Flood FrameMeter::TakeFrame(int type, size_t length) {
+FrameMeter::Flood FrameMeter::ReadFrame(int type, size_t length) {
   if (type == kData) return Lack(kFullFrame - std::min(length, kFullFrame));
   if (type != kHeaders && type != kContinuation) return Lack(kFullFrame);
   if (type == kHeaders) headers_ = 0;

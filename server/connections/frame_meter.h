@@ -22,7 +22,7 @@ class FrameMeter {
   enum class Flood { kNone, kHeaders, kEmptyFrames };
 
   /// Reads the next bytes, received at `now`. Do not call it again after a flood.
-  Flood Take(std::span<const uint8_t> bytes, Clock::time_point now = Clock::now());
+  Flood Read(std::span<const uint8_t> bytes, Clock::time_point now = Clock::now());
   bool flooded() const { return flooded_; }
 
   static constexpr size_t kMostHeaderBytes = 64 << 10;  ///< including frame headers
@@ -37,7 +37,7 @@ class FrameMeter {
  private:
   static constexpr size_t kPreface = 24, kFrameHead = 9;
 
-  Flood TakeFrame(int type, size_t length);
+  Flood ReadFrame(int type, size_t length);
   Flood Lack(size_t bytes);
 
   size_t skipped_ = kPreface;  // bytes until the next frame's header

@@ -9,25 +9,25 @@
 
 namespace choreo {
 
-void MusicBudget::Take(int64_t bytes) {
+void MusicBudget::Reserve(int64_t bytes) {
   const std::lock_guard lock(mutex_);
-  if (bytes > bytes_ - taken_) {
+  if (bytes > bytes_ - reserved_) {
     throw Refused(Refusal::kFileMusic, "the server is full: incomplete music files hold " +
-                                           std::to_string(taken_) + " bytes, this one needs " +
+                                           std::to_string(reserved_) + " bytes, this one needs " +
                                            std::to_string(bytes) + " more, at most " +
                                            std::to_string(bytes_) + " are allowed in all");
   }
-  taken_ += bytes;
+  reserved_ += bytes;
 }
 
 void MusicBudget::GiveBack(int64_t bytes) {
   const std::lock_guard lock(mutex_);
-  taken_ -= bytes;
+  reserved_ -= bytes;
 }
 
 double MusicBudget::utilisation() const {
   const std::lock_guard lock(mutex_);
-  return static_cast<double>(taken_) / static_cast<double>(bytes_);
+  return static_cast<double>(reserved_) / static_cast<double>(bytes_);
 }
 
 void MusicFile::Append(std::string_view bytes, const std::string& field) {
@@ -39,7 +39,7 @@ void MusicFile::Append(std::string_view bytes, const std::string& field) {
   if (needed > reserved_) {
     // Doubles, so that a byte is copied at most twice on average.
     const int64_t wanted = std::max(needed, std::min(2 * reserved_, kMaxAudioFileBytes));
-    budget_.Take(wanted - reserved_);
+    budget_.Reserve(wanted - reserved_);
     reserved_ = wanted;
     bytes_.reserve(static_cast<size_t>(wanted));
   }

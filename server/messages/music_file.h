@@ -21,14 +21,14 @@ class MusicBudget {
   explicit MusicBudget(int64_t bytes) : bytes_(bytes) {}
 
   /// Reserves memory. Throws Refused if less is left.
-  void Take(int64_t bytes);
+  void Reserve(int64_t bytes);
   void GiveBack(int64_t bytes);
   double utilisation() const;  ///< the reserved share
 
  private:
   const int64_t bytes_;
   mutable std::mutex mutex_;  // guards the member below
-  int64_t taken_ = 0;
+  int64_t reserved_ = 0;
 };
 
 /// The received part of a music file, in memory reserved from a budget. Not thread-safe.
@@ -40,7 +40,7 @@ class MusicFile {
   MusicFile& operator=(const MusicFile&) = delete;
 
   /// Appends bytes. Throws Error(kInvalidArgument, `field`) beyond kMaxAudioFileBytes, and what
-  /// MusicBudget::Take throws. The file is then unchanged.
+  /// MusicBudget::Reserve throws. The file is then unchanged.
   void Append(std::string_view bytes, const std::string& field);
   /// Empties the file and returns its memory to the budget.
   void Clear();

@@ -51,7 +51,7 @@ class LineLimit {
   LineLimit(int lines, std::chrono::seconds period) : most_(lines), period_(period) {}
 
   /// Whether one more line may be written.
-  bool Take() {
+  bool Admit() {
     const std::lock_guard lock(mutex_);
     BeginPeriod();
     if (lines_ == most_) {
@@ -90,12 +90,12 @@ LineLimit& RefusedCalls() {
 }
 
 /// Forwards gRPC's own log, which contains only errors unless GRPC_VERBOSITY is set.
-void TakeGrpcLine(gpr_log_func_args* line) {
+void ForwardGrpcLine(gpr_log_func_args* line) {
   CountHandshakeFault(line->message);
   static LineLimit limit(10, std::chrono::seconds(10));
   const int left_out = limit.TakeLeftOut();
   if (left_out > 0) spdlog::warn("gRPC: {} lines were left out", left_out);
-  if (!limit.Take()) return;
+  if (!limit.Admit()) return;
   // A server that shuts down ends handshakes with this error.
   const bool is_orderly =
       std::string_view(line->message).find("Listener stopped serving") != std::string_view::npos;
@@ -160,7 +160,7 @@ void StartLog(const std::string& level, bool json) {
   ForwardGrpcLog();
 }
 
-void ForwardGrpcLog() { gpr_set_log_function(TakeGrpcLine); }
+void ForwardGrpcLog() { gpr_set_log_function(ForwardGrpcLine); }
 
 std::string JsonLine(const std::string& level, const std::string& message) {
   const auto now = std::chrono::system_clock::now().time_since_epoch();
@@ -178,7 +178,7 @@ void LogLeftOutCalls() {
 void LogCall(const CallRecord& call) {
   if (call.refusal) {
     LogLeftOutCalls();
-    if (!RefusedCalls().Take()) return;
+    if (!RefusedCalls().Admit()) return;
   }
   if (!log_is_json) return spdlog::info("{}", TextOf(call));
   const std::string object = ObjectOf(call);

@@ -25,7 +25,7 @@ TEST(BodyWatch, NamesTheFastestStepOfATransition) {
   watch.Add(7, At({0, 0, 0.2}));
   watch.Add(8, At({0, 0, 0.7}));  // 15 m/s
   watch.Add(9, At({0, 0, 0.8}));
-  const std::vector<Warning> warnings = watch.Take();
+  const std::vector<Warning> warnings = watch.TakeWarnings();
   ASSERT_EQ(warnings.size(), 1U);
   EXPECT_EQ(warnings[0].code, Warning::Code::kJointTooFast);
   EXPECT_EQ(warnings[0].frame, 8);
@@ -38,7 +38,7 @@ TEST(BodyWatch, NamesTheFastestStepOfATransition) {
   // The next transition is judged by its own frames.
   watch.StartTransition("", 15);
   watch.Add(10, At({0, 0, 0.9}));
-  EXPECT_TRUE(watch.Take().empty());
+  EXPECT_TRUE(watch.TakeWarnings().empty());
 }
 
 TEST(BodyWatch, AFlightIsToldOnceAcrossTransitions) {
@@ -48,7 +48,7 @@ TEST(BodyWatch, AFlightIsToldOnceAcrossTransitions) {
   const auto dance = [&](const std::string& key, int frames, double height) {
     watch.StartTransition(key, frames);
     for (int i = 0; i < frames; ++i) watch.Add(frame++, At({0, height, 0}));
-    for (const Warning& warning : watch.Take()) told.push_back(warning);
+    for (const Warning& warning : watch.TakeWarnings()) told.push_back(warning);
   };
   dance("ready", 20, 0);
   dance("jump", 18, 0.3);
@@ -74,7 +74,7 @@ TEST(BodyWatch, HandsOnTheFloorAreNoFlight) {
   BodyWatch watch(Body(), kFps, pose);
   watch.StartTransition("", 60);
   for (int64_t frame = 0; frame < 60; ++frame) watch.Add(frame, pose);
-  EXPECT_TRUE(watch.Take().empty());
+  EXPECT_TRUE(watch.TakeWarnings().empty());
 }
 
 }  // namespace choreo::body_watch_test

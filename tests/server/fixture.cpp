@@ -71,7 +71,7 @@ std::vector<std::string> Answer::ReachedKeys() const {
   return ids;
 }
 
-void Answer::Take(const v1::StreamDanceResponse& response) {
+void Answer::Add(const v1::StreamDanceResponse& response) {
   EXPECT_FALSE(summary) << "something comes after the summary";
   if (response.has_header()) {
     EXPECT_FALSE(header) << "a second header";
@@ -84,7 +84,7 @@ void Answer::Take(const v1::StreamDanceResponse& response) {
   if (response.has_summary()) summary = response.summary();
 }
 
-void Answer::Take(const v1::GenerateTransitionResponse& response) {
+void Answer::Add(const v1::GenerateTransitionResponse& response) {
   EXPECT_FALSE(transition_summary) << "something comes after the summary";
   if (response.has_header()) header = response.header();
   if (response.has_frames()) frames.push_back(response.frames());
@@ -155,7 +155,7 @@ bool DanceClient::SendGenerateUntil(int64_t frame) {
 bool DanceClient::ReadOne() {
   v1::StreamDanceResponse response;
   if (!stream_->Read(&response)) return false;
-  answer_.Take(response);
+  answer_.Add(response);
   frames_ += response.frames().count();
   return true;
 }
@@ -260,7 +260,7 @@ Answer ServerTest::Generate(const v1::GenerateTransitionRequest& request) {
   const auto reader = stub().GenerateTransition(&context, request);
   Answer answer;
   v1::GenerateTransitionResponse response;
-  while (reader->Read(&response)) answer.Take(response);
+  while (reader->Read(&response)) answer.Add(response);
   answer.status = reader->Finish();
   return answer;
 }

@@ -68,8 +68,8 @@ struct Answer {
   /// Ids of keys, in the order in which they were reached.
   std::vector<std::string> ReachedKeys() const;
 
-  void Take(const v1::StreamDanceResponse& response);
-  void Take(const v1::GenerateTransitionResponse& response);
+  void Add(const v1::StreamDanceResponse& response);
+  void Add(const v1::GenerateTransitionResponse& response);
 };
 
 /// A StreamDance, read and written by the test's own thread.

@@ -26,11 +26,11 @@ class FrameBudgetTest : public ::testing::Test {
   }
 
   // The number of dances of one address that are admitted one after another.
-  static int TakeDances(FrameBudget& budget, const SampleQueue& model, const std::string& address,
-                        const char* calls) {
+  static int ReserveDances(FrameBudget& budget, const SampleQueue& model,
+                           const std::string& address, const char* calls) {
     for (int taken = 0;; ++taken) {
       try {
-        budget.TakeDance(calls + taken, model, address);
+        budget.ReserveDance(calls + taken, model, address);
       } catch (const Error& error) {
         EXPECT_EQ(error.code(), ErrorCode::kResourceExhausted);
         return taken;
@@ -44,26 +44,26 @@ class FrameBudgetTest : public ::testing::Test {
 
 TEST_F(FrameBudgetTest, AdmitsWhatTheEnginesCanServe) {
   FrameBudget budget(kShares);
-  EXPECT_EQ(TakeDances(budget, *models[0], "a", calls), 14);
+  EXPECT_EQ(ReserveDances(budget, *models[0], "a", calls), 14);
   EXPECT_NEAR(budget.loads()["fake"], 0.7, 1e-9);
   budget.GiveBack(&calls[3]);
   budget.GiveBack(&calls[3]);
-  budget.TakeDance(&calls[100], *models[0], "a");
-  EXPECT_THROW(budget.TakeDance(&calls[101], *models[0], "a"), Error);
+  budget.ReserveDance(&calls[100], *models[0], "a");
+  EXPECT_THROW(budget.ReserveDance(&calls[101], *models[0], "a"), Error);
 }
 
 TEST_F(FrameBudgetTest, SharesMayChangeMeanwhile) {
   FrameBudget budget(kShares);
-  EXPECT_EQ(TakeDances(budget, *models[0], "a", calls), 14);
+  EXPECT_EQ(ReserveDances(budget, *models[0], "a", calls), 14);
   budget.SetShares({.of_all = 0.76, .of_peer = 0.76, .of_lone_peer = 0.76});
-  EXPECT_EQ(TakeDances(budget, *models[0], "a", calls + 100), 1);
+  EXPECT_EQ(ReserveDances(budget, *models[0], "a", calls + 100), 1);
 }
 
 // 17 dances at the mean cost leave no time to sample the frames of one of them five times.
 TEST_F(FrameBudgetTest, LeavesTimeForOneDanceAtItsMost) {
   FrameBudget budget({.of_all = 0.99, .of_peer = 0.99, .of_lone_peer = 0.99});
   const double of_one = models[0]->LoadOf(kModelFps);
-  const int taken = TakeDances(budget, *models[0], "a", calls);
+  const int taken = ReserveDances(budget, *models[0], "a", calls);
   EXPECT_LE((taken - 1 + kMaxTakes) * of_one, 1 + 1e-9);
   EXPECT_GT((taken + kMaxTakes) * of_one, 1);
   EXPECT_EQ(budget.utilisation(), 1);
@@ -71,17 +71,17 @@ TEST_F(FrameBudgetTest, LeavesTimeForOneDanceAtItsMost) {
 
 TEST_F(FrameBudgetTest, ModelsShareTheTime) {
   FrameBudget budget(kShares);
-  for (int i = 0; i < 7; ++i) budget.TakeDance(&calls[i], *models[0], "a");
-  EXPECT_EQ(TakeDances(budget, *models[1], "a", calls + 100), 7);
+  for (int i = 0; i < 7; ++i) budget.ReserveDance(&calls[i], *models[0], "a");
+  EXPECT_EQ(ReserveDances(budget, *models[1], "a", calls + 100), 7);
 }
 
 TEST_F(FrameBudgetTest, OneAddressCannotTakeItAll) {
   FrameBudget budget({.of_all = 0.72, .of_peer = 0.36}, [](const std::string&) { return true; });
-  EXPECT_EQ(TakeDances(budget, *models[0], "a", calls), 7);
+  EXPECT_EQ(ReserveDances(budget, *models[0], "a", calls), 7);
   ExpectError(ErrorCode::kResourceExhausted,
               "a has 35 % of its time, with this one it would be 40 %, of at most 36 %",
-              [&] { budget.TakeDance(&calls[99], *models[0], "a"); });
-  EXPECT_EQ(TakeDances(budget, *models[0], "b", calls + 100), 7);
+              [&] { budget.ReserveDance(&calls[99], *models[0], "a"); });
+  EXPECT_EQ(ReserveDances(budget, *models[0], "b", calls + 100), 7);
 }
 
 // A slow engine serves about two dances, and one holder must not get both.
@@ -89,12 +89,12 @@ TEST_F(FrameBudgetTest, ARivalFindsTimeOnASmallServer) {
   bool rival = false;
   FrameBudget budget({.of_all = 0.16, .of_peer = 0.155, .of_lone_peer = 0.16},
                      [&rival](const std::string&) { return rival; });
-  EXPECT_EQ(TakeDances(budget, *models[0], "a", calls), 3);
+  EXPECT_EQ(ReserveDances(budget, *models[0], "a", calls), 3);
   rival = true;
-  EXPECT_THROW(budget.TakeDance(&calls[50], *models[0], "b"), Error);
+  EXPECT_THROW(budget.ReserveDance(&calls[50], *models[0], "b"), Error);
   budget.GiveBack(&calls[0]);
-  EXPECT_THROW(budget.TakeDance(&calls[51], *models[0], "a"), Error);
-  budget.TakeDance(&calls[52], *models[0], "b");
+  EXPECT_THROW(budget.ReserveDance(&calls[51], *models[0], "a"), Error);
+  budget.ReserveDance(&calls[52], *models[0], "b");
 }
 
 TEST_F(FrameBudgetTest, UtilisationIsOneWhereTheNextIsRefused) {
@@ -102,9 +102,9 @@ TEST_F(FrameBudgetTest, UtilisationIsOneWhereTheNextIsRefused) {
   FrameBudget budget({.of_all = 0.72, .of_peer = 0.36, .of_lone_peer = 0.72},
                      [&rival](const std::string&) { return rival; });
   EXPECT_EQ(budget.utilisation(), 0);
-  budget.TakeDance(&calls[150], *models[0], "a");
+  budget.ReserveDance(&calls[150], *models[0], "a");
   EXPECT_NEAR(budget.utilisation(), 0.05 / 0.72, 1e-9);
-  EXPECT_EQ(TakeDances(budget, *models[0], "a", calls), 13);
+  EXPECT_EQ(ReserveDances(budget, *models[0], "a", calls), 13);
   EXPECT_EQ(budget.utilisation(), 1);
   for (int i = 0; i < 7; ++i) budget.GiveBack(&calls[i]);
   EXPECT_NEAR(budget.utilisation(), 0.35 / 0.72, 1e-9);
@@ -114,34 +114,34 @@ TEST_F(FrameBudgetTest, UtilisationIsOneWhereTheNextIsRefused) {
 
 TEST_F(FrameBudgetTest, TransitionsPayForTheirFramesUpToHalfTheBudget) {
   FrameBudget budget(kShares);
-  budget.TakeTransition(&calls[0], *models[0], "a", 600);  // as two dances for ten seconds
+  budget.ReserveTransition(&calls[0], *models[0], "a", 600);  // as two dances for ten seconds
   EXPECT_NEAR(budget.loads()["fake"], 0.1, 1e-9);
-  budget.TakeTransition(&calls[1], *models[0], "a", 1'000'000);
+  budget.ReserveTransition(&calls[1], *models[0], "a", 1'000'000);
   EXPECT_NEAR(budget.loads()["fake"], 0.455, 1e-9);
-  EXPECT_EQ(TakeDances(budget, *models[0], "a", calls + 100), 5);
-  EXPECT_THROW(budget.TakeTransition(&calls[2], *models[0], "a", 1'000'000), Error);
+  EXPECT_EQ(ReserveDances(budget, *models[0], "a", calls + 100), 5);
+  EXPECT_THROW(budget.ReserveTransition(&calls[2], *models[0], "a", 1'000'000), Error);
 }
 
 // On one core, serving a dance costs half as much again as sampling it.
 TEST_F(FrameBudgetTest, DancesPayForWhatServingThemTakes) {
   const ServingCost serving(UsableCores() * 0.5 / 600);
   FrameBudget budget(kShares, {}, &serving);
-  budget.TakeTransition(&calls[50], *models[0], "a", 600);
+  budget.ReserveTransition(&calls[50], *models[0], "a", 600);
   EXPECT_NEAR(budget.loads()["fake"], 0.1, 1e-9);
   budget.GiveBack(&calls[50]);
-  EXPECT_EQ(TakeDances(budget, *models[0], "a", calls), 9);
+  EXPECT_EQ(ReserveDances(budget, *models[0], "a", calls), 9);
   EXPECT_NEAR(budget.loads()["fake"], 0.675, 1e-9);
 }
 
 TEST_F(FrameBudgetTest, KnowsWhetherOthersThanDancesWereThere) {
   FrameBudget budget({});
-  budget.TakeDance(&calls[0], *models[0], "a");
+  budget.ReserveDance(&calls[0], *models[0], "a");
   EXPECT_TRUE(budget.OnlyDanced());
-  budget.TakeTransition(&calls[1], *models[0], "a", 1);
+  budget.ReserveTransition(&calls[1], *models[0], "a", 1);
   budget.GiveBack(&calls[1]);
   EXPECT_FALSE(budget.OnlyDanced());
   EXPECT_TRUE(budget.OnlyDanced());
-  budget.TakeTransition(&calls[2], *models[0], "a", 1);
+  budget.ReserveTransition(&calls[2], *models[0], "a", 1);
   EXPECT_FALSE(budget.OnlyDanced());
   EXPECT_FALSE(budget.OnlyDanced());
   budget.GiveBack(&calls[2]);
@@ -155,15 +155,15 @@ TEST_F(FrameBudgetTest, AdmitsASingleDanceOnAnyEngine) {
   samplers.back()->set_seconds_a_frame(1);
   models.push_back(std::make_unique<SampleQueue>(std::move(samplers), SampleQueue::Options{}));
   FrameBudget budget({.of_all = 0.9, .of_peer = 0.8});
-  EXPECT_EQ(TakeDances(budget, *models[2], "a", calls), 1);
-  EXPECT_THROW(budget.TakeDance(&calls[99], *models[0], "b"), Error);
+  EXPECT_EQ(ReserveDances(budget, *models[2], "a", calls), 1);
+  EXPECT_THROW(budget.ReserveDance(&calls[99], *models[0], "b"), Error);
   budget.GiveBack(&calls[0]);
-  EXPECT_EQ(TakeDances(budget, *models[2], "b", calls), 1);
+  EXPECT_EQ(ReserveDances(budget, *models[2], "b", calls), 1);
 }
 
 TEST_F(FrameBudgetTest, FactorAboveOneRefusesNobody) {
   FrameBudget budget({.of_all = 1.1, .of_peer = 1.1});
-  for (const char& call : calls) budget.TakeDance(&call, *models[0], "a");
+  for (const char& call : calls) budget.ReserveDance(&call, *models[0], "a");
   EXPECT_NEAR(budget.loads()["fake"], 10, 1e-9);
 }
 

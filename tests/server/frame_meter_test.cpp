@@ -24,15 +24,15 @@ std::string Frames(int type, size_t bytes, size_t size = kFrame) {
   return frames;
 }
 
-Flood Take(FrameMeter* meter, const std::string& bytes, FrameMeter::Clock::time_point now = {}) {
-  return meter->Take({reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size()}, now);
+Flood Read(FrameMeter* meter, const std::string& bytes, FrameMeter::Clock::time_point now = {}) {
+  return meter->Read({reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size()}, now);
 }
 
 bool Passes(const std::string& bytes, size_t at_once = 1000) {
   FrameMeter meter;
   for (size_t at = 0; at < bytes.size(); at += at_once) {
     const auto piece = bytes.substr(at, at_once);
-    if (Take(&meter, piece) != Flood::kNone) return false;
+    if (Read(&meter, piece) != Flood::kNone) return false;
   }
   return true;
 }
@@ -69,10 +69,10 @@ TEST(FrameMeterTest, FramesWithoutContentAreCountedBySeconds) {
     for (int i = 0; i < FrameMeter::kMostEmptyFrames; ++i) most += frame;
     FrameMeter meter;
     FrameMeter::Clock::time_point now{};
-    EXPECT_EQ(Take(&meter, kPreface, now), Flood::kNone);
+    EXPECT_EQ(Read(&meter, kPreface, now), Flood::kNone);
     for (int second = 0; second < 3; ++second, now += std::chrono::seconds(1))
-      EXPECT_EQ(Take(&meter, most, now), Flood::kNone) << "type " << type;
-    EXPECT_EQ(Take(&meter, most + frame, now), Flood::kEmptyFrames) << "type " << type;
+      EXPECT_EQ(Read(&meter, most, now), Flood::kNone) << "type " << type;
+    EXPECT_EQ(Read(&meter, most + frame, now), Flood::kEmptyFrames) << "type " << type;
   }
 }
 
@@ -81,9 +81,9 @@ TEST(FrameMeterTest, DataIsCountedByWhatItLacks) {
   const auto flood_after = [](size_t length) {
     const std::string frame = Http2::Frame(Http2::kData, 0, 1, std::string(length, 'a'));
     FrameMeter meter;
-    Take(&meter, kPreface);
+    Read(&meter, kPreface);
     int frames = 0;
-    while (frames < 4 * FrameMeter::kMostEmptyFrames && Take(&meter, frame) == Flood::kNone)
+    while (frames < 4 * FrameMeter::kMostEmptyFrames && Read(&meter, frame) == Flood::kNone)
       ++frames;
     return frames;
   };
@@ -100,10 +100,10 @@ TEST(FrameMeterTest, CallsAreCountedBySeconds) {
   }
   FrameMeter meter;
   FrameMeter::Clock::time_point now{};
-  EXPECT_EQ(Take(&meter, kPreface, now), Flood::kNone);
+  EXPECT_EQ(Read(&meter, kPreface, now), Flood::kNone);
   for (int second = 0; second < 3; ++second, now += std::chrono::seconds(1))
-    EXPECT_EQ(Take(&meter, most, now), Flood::kNone);
-  EXPECT_EQ(Take(&meter, most + Http2::Call(1, "StreamDance"), now), Flood::kEmptyFrames);
+    EXPECT_EQ(Read(&meter, most, now), Flood::kNone);
+  EXPECT_EQ(Read(&meter, most + Http2::Call(1, "StreamDance"), now), Flood::kEmptyFrames);
 }
 
 }  // namespace choreo::frame_meter_test

@@ -14,7 +14,7 @@ class PlayerTest : public testing::Test {
  protected:
   // For frames that are made and sent this many seconds after the start.
   double Late(int64_t first_frame, int made, int sent) {
-    return player_.Take(first_frame, begin_ + seconds(made), begin_ + seconds(sent));
+    return player_.Record(first_frame, begin_ + seconds(made), begin_ + seconds(sent));
   }
 
  private:
