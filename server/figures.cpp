@@ -178,7 +178,7 @@ class Figures {
         MetricType::Gauge, [&](const std::string& holder) {
           Caller caller;
           caller.holder = holder;
-          return serving_.calls.CountOf(caller.Party());
+          return serving_.calls.CountOf(caller.Name());
         });
     add("holder_calls_total", "Calls of a token's holder that danced or failed.",
         MetricType::Counter, [&](const std::string& holder) { return tally.SumOf(holder).served; });

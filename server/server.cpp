@@ -76,8 +76,8 @@ milliseconds Milliseconds(double seconds) {
 
 CallLimits LimitsOf(const ServerConfig& config) {
   return {.calls = config.max_streams,
-          .calls_of_peer = config.MaxStreamsOfPeer(),
-          .calls_of_lone_peer = config.MaxStreamsOfLonePeer(),
+          .calls_of_caller = config.MaxStreamsOfPeer(),
+          .calls_of_lone_caller = config.MaxStreamsOfLonePeer(),
           .first_message = Milliseconds(config.first_message_seconds),
           .idle = Milliseconds(config.idle_seconds),
           .unread = Milliseconds(config.unread_seconds)};
@@ -89,8 +89,8 @@ FrameShares SharesOf(const ServerConfig& config) {
     return config.max_load * std::min(1.0, double(calls) / config.max_streams);
   };
   return {.of_all = config.max_load,
-          .of_peer = share(config.MaxStreamsOfPeer()),
-          .of_lone_peer = share(config.MaxStreamsOfLonePeer())};
+          .of_caller = share(config.MaxStreamsOfPeer()),
+          .of_lone_caller = share(config.MaxStreamsOfLonePeer())};
 }
 
 void LogSecurity(const ServerConfig& config, const Tokens& tokens) {

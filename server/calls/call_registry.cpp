@@ -32,22 +32,22 @@ Error ResumeElsewhere() {
           "the server is draining; another one can resume from the last continuation"};
 }
 
-void CallRegistry::Enter(const std::shared_ptr<Call>& call, std::string party) {
+void CallRegistry::Enter(const std::shared_ptr<Call>& call, std::string caller) {
   const std::lock_guard lock(mutex_);
   if (!admitting_) throw Refused(Refusal::kDraining, kGoingAway);
-  if (visits_[0].party != party) std::swap(visits_[0], visits_[1]);
-  visits_[0] = {party, time_.Now()};
-  const auto found = of_party_.find(party);
-  const int calls = found == of_party_.end() ? 0 : found->second, most = MostOf(party);
+  if (visits_[0].caller != caller) std::swap(visits_[0], visits_[1]);
+  visits_[0] = {caller, time_.Now()};
+  const auto found = of_caller_.find(caller);
+  const int calls = found == of_caller_.end() ? 0 : found->second, most = MostOf(caller);
   if (calls >= most) {
     // A caller that may use all places has no limit of its own.
     if (most >= limits_.calls) throw Full(calls, limits_.calls);
-    throw Refused(Refusal::kStreamsOfPeer, party + " has " + std::to_string(calls) +
+    throw Refused(Refusal::kStreamsOfPeer, caller + " has " + std::to_string(calls) +
                                                " calls in progress, of at most " +
                                                std::to_string(most) + " for one caller");
   }
-  ++of_party_[party];
-  calls_.emplace(call.get(), Entry{call, std::move(party), time_.Now()});
+  ++of_caller_[caller];
+  calls_.emplace(call.get(), Entry{call, std::move(caller), time_.Now()});
 }
 
 void CallRegistry::Admit(const Call* call) {
@@ -72,16 +72,16 @@ void CallRegistry::Leave(const Call* call) {
         std::max(kShareOfLast, 1.0 / static_cast<double>(++ended_)) * (took - mean_seconds_);
     refused_ = std::max(0, refused_ - 1);
   }
-  const auto others = of_party_.find(entry.party);
-  if (--others->second == 0) of_party_.erase(others);
+  const auto others = of_caller_.find(entry.caller);
+  if (--others->second == 0) of_caller_.erase(others);
   calls_.erase(at);
   if (calls_.empty()) left_.notify_all();
 }
 
-int CallRegistry::CountOf(const std::string& party) const {
+int CallRegistry::CountOf(const std::string& caller) const {
   const std::lock_guard lock(mutex_);
-  const auto found = of_party_.find(party);
-  return found == of_party_.end() ? 0 : found->second;
+  const auto found = of_caller_.find(caller);
+  return found == of_caller_.end() ? 0 : found->second;
 }
 
 void CallRegistry::EndIdle() {
@@ -186,21 +186,21 @@ int CallRegistry::count() const {
   return admitted_;
 }
 
-bool CallRegistry::HasRival(const std::string& party) const {
+bool CallRegistry::HasRival(const std::string& caller) const {
   const std::lock_guard lock(mutex_);
-  return IsRivalled(party);
+  return IsRivalled(caller);
 }
 
-bool CallRegistry::IsRivalled(const std::string& party) const {
-  if (of_party_.size() > (of_party_.contains(party) ? 1U : 0U)) return true;
+bool CallRegistry::IsRivalled(const std::string& caller) const {
+  if (of_caller_.size() > (of_caller_.contains(caller) ? 1U : 0U)) return true;
   const auto now = time_.Now();
   return std::ranges::any_of(visits_, [&](const Visit& visit) {
-    return !visit.party.empty() && visit.party != party && now - visit.at < kThere;
+    return !visit.caller.empty() && visit.caller != caller && now - visit.at < kThere;
   });
 }
 
-int CallRegistry::MostOf(const std::string& party) const {
-  return IsRivalled(party) ? limits_.calls_of_peer : limits_.calls_of_lone_peer;
+int CallRegistry::MostOf(const std::string& caller) const {
+  return IsRivalled(caller) ? limits_.calls_of_caller : limits_.calls_of_lone_caller;
 }
 
 CallLimits CallRegistry::limits() const {
@@ -216,8 +216,8 @@ void CallRegistry::SetLimits(const CallLimits& limits) {
 double CallRegistry::utilisation() const {
   const std::lock_guard lock(mutex_);
   double most = static_cast<double>(admitted_) / limits_.calls;
-  for (const auto& [party, calls] : of_party_) {
-    most = std::max(most, static_cast<double>(calls) / MostOf(party));
+  for (const auto& [caller, calls] : of_caller_) {
+    most = std::max(most, static_cast<double>(calls) / MostOf(caller));
   }
   return most;
 }

@@ -51,7 +51,7 @@ struct CallLimits {
   int calls = 0;
   /// The most calls of one caller, including calls without a first message: while another caller is
   /// connected, and while none is.
-  int calls_of_peer = 0, calls_of_lone_peer = 0;
+  int calls_of_caller = 0, calls_of_lone_caller = 0;
   std::chrono::milliseconds first_message{};
   std::chrono::milliseconds idle{};    ///< without messages in either direction
   std::chrono::milliseconds unread{};  ///< an answer was not taken
@@ -69,9 +69,9 @@ class CallRegistry {
   explicit CallRegistry(const CallLimits& limits, const TimeSource& time = TimeSource::System())
       : time_(time), limits_(limits) {}
 
-  /// `party`: the caller to whom the call is counted (Caller::Party). Throws Refused if the caller
-  /// has too many calls, and after StopAdmitting.
-  void Enter(const std::shared_ptr<Call>& call, std::string party);
+  /// `caller`: the name of the caller to whom the call is counted (Caller::Name). Throws Refused if
+  /// the caller has too many calls, and after StopAdmitting.
+  void Enter(const std::shared_ptr<Call>& call, std::string caller);
   /// Admits a call, once. Throws Refused when full, and after StopAdmitting.
   void Admit(const Call* call);
   /// Removes a call. Ignores calls that never entered.
@@ -94,14 +94,14 @@ class CallRegistry {
   void AbortAll(const Error& error);
   bool WaitUntilEmpty(std::chrono::milliseconds limit) const;
 
-  /// Whether a caller other than `party` has a call, or had one within the last minute, which keeps
-  /// a place for a refused caller's retry.
-  bool HasRival(const std::string& party) const;
+  /// Whether another caller than this one has a call, or had one within the last minute, which
+  /// keeps a place for a refused caller's retry.
+  bool HasRival(const std::string& caller) const;
 
   bool admitting() const;  ///< until StopAdmitting
   int count() const;       ///< admitted
   /// The calls of one caller, including calls without a first message.
-  int CountOf(const std::string& party) const;
+  int CountOf(const std::string& caller) const;
   CallLimits limits() const;
   /// Limits calls from now on; calls in progress stay, even if they are more.
   void SetLimits(const CallLimits& limits);
@@ -119,21 +119,21 @@ class CallRegistry {
   using Clock = std::chrono::steady_clock;
   struct Entry {
     std::weak_ptr<Call> call;
-    std::string party;
+    std::string caller;
     Clock::time_point since;  // when it entered, or was admitted
     bool admitted = false;
   };
 
   /// A caller's latest arrival.
   struct Visit {
-    std::string party;
+    std::string caller;
     Clock::time_point at;
   };
 
   // These require mutex_.
   std::vector<std::shared_ptr<Call>> Calls(std::optional<bool> admitted = std::nullopt) const;
-  bool IsRivalled(const std::string& party) const;
-  int MostOf(const std::string& party) const;
+  bool IsRivalled(const std::string& caller) const;
+  int MostOf(const std::string& caller) const;
   double Spread(double seconds);
 
   const TimeSource& time_;
@@ -142,7 +142,7 @@ class CallRegistry {
   CallLimits limits_;
   mutable std::condition_variable left_;
   std::map<const Call*, Entry> calls_;
-  std::map<std::string, int> of_party_;
+  std::map<std::string, int> of_caller_;
   int admitted_ = 0;
   bool admitting_ = true;
   std::array<Visit, 2> visits_;  // the latest caller, and the latest other one

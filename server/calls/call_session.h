@@ -82,8 +82,8 @@ class CallSession : public Call {
     return false;
   }
 
-  /// The party to whom this call is counted.
-  std::string party() const { return caller_.Party(); }
+  /// The name of the caller to whom this call is counted.
+  std::string caller_name() const { return caller_.Name(); }
 
   /// Counts the call as in progress. Call on the message thread with the first message. Throws what
   /// CallRegistry::Admit throws.

@@ -18,35 +18,35 @@ std::string Percent(double share) { return std::to_string(std::lround(100 * shar
 }  // namespace
 
 void FrameBudget::ReserveDance(const void* call, const SampleQueue& model,
-                               const std::string& party) {
-  Reserve(call, {&model, party, model.model().fps, true});
+                               const std::string& caller) {
+  Reserve(call, {&model, caller, model.model().fps, true});
 }
 
 void FrameBudget::ReserveTransition(const void* call, const SampleQueue& model,
-                                    const std::string& party, int frames) {
+                                    const std::string& caller, int frames) {
   double frames_per_second = frames / kTransitionSeconds;
   const FrameShares shares = this->shares();
-  const double most = std::min(shares.of_all, shares.of_lone_peer) / 2;
+  const double most = std::min(shares.of_all, shares.of_lone_caller) / 2;
   const double load = model.LoadOf(frames_per_second);
   if (load > most) frames_per_second *= most / load;
-  Reserve(call, {&model, party, frames_per_second, false});
+  Reserve(call, {&model, caller, frames_per_second, false});
 }
 
 void FrameBudget::Reserve(const void* call, Charge charge) {
   const FrameShares shares = this->shares();
-  const double of_party = MostOf(shares, charge.party, LoadOf(charge));
+  const double of_caller = MostOf(shares, charge.caller, LoadOf(charge));
   const std::lock_guard lock(mutex_);
-  const auto require = [&](const std::string* party, double most) {
-    const double taken = LoadOf(party), load = LoadOf(party, &charge);
+  const auto require = [&](const std::string* caller, double most) {
+    const double taken = LoadOf(caller), load = LoadOf(caller, &charge);
     if (taken == 0 || load <= most) return;
-    throw Refused(party ? Refusal::kLoadOfPeer : Refusal::kLoad,
-                  "the server is busy: " + (party ? *party + " has " : "calls have ") +
+    throw Refused(caller ? Refusal::kLoadOfPeer : Refusal::kLoad,
+                  "the server is busy: " + (caller ? *caller + " has " : "calls have ") +
                       Percent(taken) + " of its time, with this one it would be " + Percent(load) +
-                      ", of at most " + Percent(most) + (party ? " for one caller" : ""));
+                      ", of at most " + Percent(most) + (caller ? " for one caller" : ""));
   };
   if (shares.of_all <= 1) {
     require(nullptr, MostOfAll(shares, &charge));
-    require(&charge.party, of_party);
+    require(&charge.caller, of_caller);
   }
   if (!charge.dances) only_danced_ = false;
   charges_.emplace(call, std::move(charge));
@@ -76,7 +76,7 @@ double FrameBudget::LoadOf(const Charge& charge) const {
   return charge.dances && serving_ ? engine + serving_->LoadOf(charge.frames_per_second) : engine;
 }
 
-double FrameBudget::LoadOf(const std::string* party, const Charge* more) const {
+double FrameBudget::LoadOf(const std::string* caller, const Charge* more) const {
   // Sums frames first and multiplies by their cost afterwards, so that equal calls add up exactly.
   std::map<const SampleQueue*, double> frames;
   double danced = 0;
@@ -85,7 +85,7 @@ double FrameBudget::LoadOf(const std::string* party, const Charge* more) const {
     if (charge.dances) danced += charge.frames_per_second;
   };
   for (const auto& [call, charge] : charges_) {
-    if (!party || charge.party == *party) add(charge);
+    if (!caller || charge.caller == *caller) add(charge);
   }
   if (more) add(*more);
   double load = serving_ ? serving_->LoadOf(danced) : 0;
@@ -104,9 +104,10 @@ double FrameBudget::MostOfAll(const FrameShares& shares, const Charge* more) con
   return std::min(shares.of_all, 1 - (kMaxTakes - 1) * costliest);
 }
 
-double FrameBudget::MostOf(const FrameShares& shares, const std::string& party, double cost) const {
-  if (!has_rival_ || !has_rival_(party)) return shares.of_lone_peer;
-  return std::min(shares.of_peer, shares.of_all - cost);
+double FrameBudget::MostOf(const FrameShares& shares, const std::string& caller,
+                           double cost) const {
+  if (!has_rival_ || !has_rival_(caller)) return shares.of_lone_caller;
+  return std::min(shares.of_caller, shares.of_all - cost);
 }
 
 FrameShares FrameBudget::shares() const {
@@ -131,7 +132,7 @@ double FrameBudget::utilisation() const {
     double OfMost(double most) const { return load + largest > most ? 1 : load / most; }
   };
   Sum all;
-  std::map<std::string, Sum> of_party;
+  std::map<std::string, Sum> of_caller;
   double most_of_all = 0;
   {
     const std::lock_guard lock(mutex_);
@@ -139,12 +140,12 @@ double FrameBudget::utilisation() const {
     for (const auto& [call, charge] : charges_) {
       const double load = LoadOf(charge);
       all.Add(load);
-      of_party[charge.party].Add(load);
+      of_caller[charge.caller].Add(load);
     }
   }
   double most = all.load > 0 ? all.OfMost(most_of_all) : 0;
-  for (const auto& [party, sum] : of_party) {
-    if (sum.load > 0) most = std::max(most, sum.OfMost(MostOf(shares, party, sum.largest)));
+  for (const auto& [caller, sum] : of_caller) {
+    if (sum.load > 0) most = std::max(most, sum.OfMost(MostOf(shares, caller, sum.largest)));
   }
   return most;
 }

@@ -15,7 +15,7 @@ namespace choreo {
 struct FrameShares {
   double of_all = 0.85;  ///< for all calls; the rest is for other programs and for peaks
   /// For one caller, while another is connected and while none is.
-  double of_peer = 0.85, of_lone_peer = 0.85;
+  double of_caller = 0.85, of_lone_caller = 0.85;
 };
 
 /// Reserves the machine's time for calls as they arrive. Until GiveBack, each call is charged for
@@ -23,25 +23,25 @@ struct FrameShares {
 /// cost of serving. Beside these means, one dance of the costliest kind has time for kMaxTakes
 /// takes, which a rare transition needs (plan/takes.h). The machine serves as many calls as it can,
 /// and refuses the rest before they begin. Models share the devices, so their times add up. A
-/// charged model outlives its calls. `party`: the caller to whom a call is counted (Caller::Party).
-/// Thread-safe.
+/// charged model outlives its calls. `caller`: the name of the caller to whom a call is counted
+/// (Caller::Name). Thread-safe.
 class FrameBudget {
  public:
-  /// `has_rival`: whether a caller other than this party is connected. While one is, a caller must
+  /// `has_rival`: whether another caller than this one is connected. While one is, a caller must
   /// leave time for one more call like its own. `serving`: the cost of serving; null charges
   /// nothing for it.
   explicit FrameBudget(const FrameShares& shares,
-                       std::function<bool(const std::string& party)> has_rival = {},
+                       std::function<bool(const std::string& caller)> has_rival = {},
                        const ServingCost* serving = nullptr)
       : has_rival_(std::move(has_rival)), serving_(serving), shares_(shares) {}
 
   /// Reserves time for a dance at playing speed, however fast its music arrives. Throws Refused if
   /// it exceeds the time left. A lone caller's first call is always accepted, so that slow engines
   /// can serve one at a time. Call once per call. `call`: any address that identifies the call.
-  void ReserveDance(const void* call, const SampleQueue& model, const std::string& party);
+  void ReserveDance(const void* call, const SampleQueue& model, const std::string& caller);
   /// Reserves time for a transition of this many frames, summed over its candidates. Call once per
   /// call. Reserves at most half of all time, because a transition yields to dances anyway.
-  void ReserveTransition(const void* call, const SampleQueue& model, const std::string& party,
+  void ReserveTransition(const void* call, const SampleQueue& model, const std::string& caller,
                          int frames);
   /// Reserves by these shares from now on; calls in progress keep their charges.
   void SetShares(const FrameShares& shares);
@@ -60,7 +60,7 @@ class FrameBudget {
  private:
   struct Charge {
     const SampleQueue* model;
-    std::string party;
+    std::string caller;
     double frames_per_second;
     bool dances;
   };
@@ -68,18 +68,18 @@ class FrameBudget {
   void Reserve(const void* call, Charge charge);
   double LoadOf(const Charge& charge) const;
 
-  // The load of all calls or, with `party`, of one caller's calls, plus `more`. Requires mutex_.
-  double LoadOf(const std::string* party, const Charge* more = nullptr) const;
+  // The load of all calls or, with `caller`, of one caller's calls, plus `more`. Requires mutex_.
+  double LoadOf(const std::string* caller, const Charge* more = nullptr) const;
 
   // The most that all calls, including `more`, may reserve. Requires mutex_.
   double MostOfAll(const FrameShares& shares, const Charge* more = nullptr) const;
 
   // The functions below do not require mutex_. MostOf: the most that this caller may reserve if its
   // next call costs `cost`.
-  double MostOf(const FrameShares& shares, const std::string& party, double cost) const;
+  double MostOf(const FrameShares& shares, const std::string& caller, double cost) const;
   FrameShares shares() const;
 
-  const std::function<bool(const std::string& party)> has_rival_;
+  const std::function<bool(const std::string& caller)> has_rival_;
   const ServingCost* const serving_;
   mutable std::mutex mutex_;
   FrameShares shares_;                     // lock: mutex_

@@ -29,7 +29,7 @@ void FillLimits(const CallLimits& of_calls, v1::Limits* limits) {
     return std::chrono::duration<double>(time).count();
   };
   limits->set_max_streams(of_calls.calls);
-  limits->set_max_streams_of_peer(of_calls.calls_of_peer);
+  limits->set_max_streams_of_peer(of_calls.calls_of_caller);
   limits->set_first_message_s(seconds(of_calls.first_message));
   limits->set_idle_s(seconds(of_calls.idle));
   limits->set_unread_s(seconds(of_calls.unread));

@@ -25,7 +25,7 @@ struct Serving {
           int64_t file_music_bytes, int io_threads, const TimeSource& time = TimeSource::System())
       : calls(limits, time),
         frames(
-            shares, [this](const std::string& party) { return calls.HasRival(party); }, &cost),
+            shares, [this](const std::string& caller) { return calls.HasRival(caller); }, &cost),
         tokens(std::move(tokens_file)),
         outbox_bytes(outbox_limit),
         file_music(file_music_bytes),

@@ -62,7 +62,7 @@ class SessionReactor : public Grpc, public Outbox<Response>::Wire {
   void Enter(Begin begin) {
     if (!session_->Authenticate(HeaderOf(*context_, "authorization"))) return;
     try {
-      serving_.calls.Enter(session_, session_->party());
+      serving_.calls.Enter(session_, session_->caller_name());
       begin();
     } catch (const Error& error) {
       session_->End(error);

@@ -182,7 +182,7 @@ class DanceSession final : public CallSession<DanceResponse, DanceStream>,
     const ModelInfo& model = found->model();
     const ValidDance config = ToDanceConfig(message, model, Serving::FreshSeed());
     Name(model, config->seed);
-    serving_.frames.ReserveDance(this, *found, party());
+    serving_.frames.ReserveDance(this, *found, caller_name());
     if (message.has_continuation() || IsNamedResumed()) NoteResumed(config->FirstFrame());
     queue_ = found;
     encoding_ = message.encoding();

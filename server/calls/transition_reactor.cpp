@@ -41,7 +41,7 @@ class TransitionSession final : public CallSession<v1::GenerateTransitionRespons
       // Validates before decoding, so that an invalid request costs no decoding.
       ValidGroup request = ToGroupRequest(message, queue_->model(), Serving::FreshSeed());
       Name(queue_->model(), request->seed);
-      serving_.frames.ReserveTransition(this, *queue_, party(),
+      serving_.frames.ReserveTransition(this, *queue_, caller_name(),
                                         request->candidates * request->frames);
       if (message.config().audio_format().encoding() != v1::AUDIO_ENCODING_FILE) {
         return Begin(message, std::move(request));

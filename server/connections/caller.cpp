@@ -79,7 +79,7 @@ std::string PeerOf(const grpc::ServerContextBase& call) {
 
 std::string AddressOf(const std::string& peer) { return SplitAddress(peer).host; }
 
-std::string Caller::Party() const {
+std::string Caller::Name() const {
   return holder.empty() ? AddressOf(peer) : "holder \"" + holder + '"';
 }
 

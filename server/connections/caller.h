@@ -22,7 +22,7 @@ struct Caller {
 
   /// Calls with the same Party are counted together: the token's holder or, without one, the
   /// address.
-  std::string Party() const;
+  std::string Name() const;
 };
 
 inline constexpr const char* kStreamIdHeader = "choreo-stream-id";

@@ -24,11 +24,11 @@ class CallRegistryTest : public testing::Test {
  protected:
   static constexpr int kCalls = 4, kOfPeer = 3;
 
-  bool Come(const std::string& party) { return !RefusalOf(party); }
-  std::optional<Refusal> RefusalOf(const std::string& party) {
+  bool Come(const std::string& caller) { return !RefusalOf(caller); }
+  std::optional<Refusal> RefusalOf(const std::string& caller) {
     const auto call = std::make_shared<SilentCall>();
     try {
-      registry.Enter(call, party);
+      registry.Enter(call, caller);
       registry.Admit(call.get());
     } catch (const Refused& refused) {
       registry.Leave(call.get());
@@ -43,17 +43,18 @@ class CallRegistryTest : public testing::Test {
   }
 
   AdvancedClock clock;
-  CallRegistry registry{{.calls = kCalls, .calls_of_peer = kOfPeer, .calls_of_lone_peer = kCalls},
-                        clock};
+  CallRegistry registry{
+      {.calls = kCalls, .calls_of_caller = kOfPeer, .calls_of_lone_caller = kCalls}, clock};
   std::vector<std::shared_ptr<SilentCall>> calls;
 };
 
 TEST_F(CallRegistryTest, LimitsMayChangeMeanwhile) {
   for (int i = 0; i < kCalls; ++i) EXPECT_TRUE(Come("ipv4:10.0.0.1"));
   EXPECT_FALSE(Come("ipv4:10.0.0.1"));
-  registry.SetLimits({.calls = kCalls + 1, .calls_of_peer = 1, .calls_of_lone_peer = kCalls + 1});
+  registry.SetLimits(
+      {.calls = kCalls + 1, .calls_of_caller = 1, .calls_of_lone_caller = kCalls + 1});
   EXPECT_TRUE(Come("ipv4:10.0.0.1"));
-  registry.SetLimits({.calls = 1, .calls_of_peer = 1, .calls_of_lone_peer = 1});
+  registry.SetLimits({.calls = 1, .calls_of_caller = 1, .calls_of_lone_caller = 1});
   EXPECT_EQ(registry.count(), kCalls + 1) << "who is there stays";
   EXPECT_FALSE(Come("ipv4:10.0.0.1"));
 }

@@ -11,7 +11,7 @@
 
 namespace choreo::frame_budget_test {
 
-constexpr FrameShares kShares{.of_all = 0.71, .of_peer = 0.71, .of_lone_peer = 0.71};
+constexpr FrameShares kShares{.of_all = 0.71, .of_caller = 0.71, .of_lone_caller = 0.71};
 
 /// Two models with one worker each, and time for 20 dances: 10 of each model.
 class FrameBudgetTest : public ::testing::Test {
@@ -55,13 +55,13 @@ TEST_F(FrameBudgetTest, AdmitsWhatTheEnginesCanServe) {
 TEST_F(FrameBudgetTest, SharesMayChangeMeanwhile) {
   FrameBudget budget(kShares);
   EXPECT_EQ(ReserveDances(budget, *models[0], "a", calls), 14);
-  budget.SetShares({.of_all = 0.76, .of_peer = 0.76, .of_lone_peer = 0.76});
+  budget.SetShares({.of_all = 0.76, .of_caller = 0.76, .of_lone_caller = 0.76});
   EXPECT_EQ(ReserveDances(budget, *models[0], "a", calls + 100), 1);
 }
 
 // 17 dances at the mean cost leave no time to sample the frames of one of them five times.
 TEST_F(FrameBudgetTest, LeavesTimeForOneDanceAtItsMost) {
-  FrameBudget budget({.of_all = 0.99, .of_peer = 0.99, .of_lone_peer = 0.99});
+  FrameBudget budget({.of_all = 0.99, .of_caller = 0.99, .of_lone_caller = 0.99});
   const double of_one = models[0]->LoadOf(kModelFps);
   const int taken = ReserveDances(budget, *models[0], "a", calls);
   EXPECT_LE((taken - 1 + kMaxTakes) * of_one, 1 + 1e-9);
@@ -76,7 +76,7 @@ TEST_F(FrameBudgetTest, ModelsShareTheTime) {
 }
 
 TEST_F(FrameBudgetTest, OneAddressCannotTakeItAll) {
-  FrameBudget budget({.of_all = 0.72, .of_peer = 0.36}, [](const std::string&) { return true; });
+  FrameBudget budget({.of_all = 0.72, .of_caller = 0.36}, [](const std::string&) { return true; });
   EXPECT_EQ(ReserveDances(budget, *models[0], "a", calls), 7);
   ExpectError(ErrorCode::kResourceExhausted,
               "a has 35 % of its time, with this one it would be 40 %, of at most 36 %",
@@ -87,7 +87,7 @@ TEST_F(FrameBudgetTest, OneAddressCannotTakeItAll) {
 // A slow engine serves about two dances, and one holder must not get both.
 TEST_F(FrameBudgetTest, ARivalFindsTimeOnASmallServer) {
   bool rival = false;
-  FrameBudget budget({.of_all = 0.16, .of_peer = 0.155, .of_lone_peer = 0.16},
+  FrameBudget budget({.of_all = 0.16, .of_caller = 0.155, .of_lone_caller = 0.16},
                      [&rival](const std::string&) { return rival; });
   EXPECT_EQ(ReserveDances(budget, *models[0], "a", calls), 3);
   rival = true;
@@ -99,7 +99,7 @@ TEST_F(FrameBudgetTest, ARivalFindsTimeOnASmallServer) {
 
 TEST_F(FrameBudgetTest, UtilisationIsOneWhereTheNextIsRefused) {
   bool rival = false;
-  FrameBudget budget({.of_all = 0.72, .of_peer = 0.36, .of_lone_peer = 0.72},
+  FrameBudget budget({.of_all = 0.72, .of_caller = 0.36, .of_lone_caller = 0.72},
                      [&rival](const std::string&) { return rival; });
   EXPECT_EQ(budget.utilisation(), 0);
   budget.ReserveDance(&calls[150], *models[0], "a");
@@ -154,7 +154,7 @@ TEST_F(FrameBudgetTest, AdmitsASingleDanceOnAnyEngine) {
   samplers.push_back(std::make_unique<FakeSampler>());
   samplers.back()->set_seconds_a_frame(1);
   models.push_back(std::make_unique<SampleQueue>(std::move(samplers), SampleQueue::Options{}));
-  FrameBudget budget({.of_all = 0.9, .of_peer = 0.8});
+  FrameBudget budget({.of_all = 0.9, .of_caller = 0.8});
   EXPECT_EQ(ReserveDances(budget, *models[2], "a", calls), 1);
   EXPECT_THROW(budget.ReserveDance(&calls[99], *models[0], "b"), Error);
   budget.GiveBack(&calls[0]);
@@ -162,7 +162,7 @@ TEST_F(FrameBudgetTest, AdmitsASingleDanceOnAnyEngine) {
 }
 
 TEST_F(FrameBudgetTest, FactorAboveOneRefusesNobody) {
-  FrameBudget budget({.of_all = 1.1, .of_peer = 1.1});
+  FrameBudget budget({.of_all = 1.1, .of_caller = 1.1});
   for (const char& call : calls) budget.ReserveDance(&call, *models[0], "a");
   EXPECT_NEAR(budget.loads()["fake"], 10, 1e-9);
 }
