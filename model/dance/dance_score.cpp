@@ -44,8 +44,8 @@ DanceScore::DanceScore(const ModelInfo& model, const ValidDance& config, const A
 
 DanceEvents DanceScore::SetKey(const Key& key, const KeyMoment& when) {
   CheckKeyPose(model_.skeleton, key.pose, "key.pose");
-  ValidateMask(model_.skeleton, key.mask, "key.mask");
-  ValidateHit(key.hit, "key.hit");
+  CheckMask(model_.skeleton, key.mask, "key.mask");
+  CheckHit(key.hit, "key.hit");
   if (const auto rejection = timeline_.Set(key, when, "key"))
     return {AnswerLate(*rejection, key.hands)};
   return KeysBehindMusic(&key.id);
@@ -77,7 +77,7 @@ DanceEvents NoteChanges(const std::vector<ControlChange>& changes, int64_t first
 
 DanceEvents DanceScore::SetControls(const ControlRequest& request) {
   const std::string field = "controls";
-  ValidateControls(request, model_, field);
+  CheckControls(request, model_, field);
   const int64_t from = timeline_.Frontier(field);
   return NoteChanges(controls_.Set(request, from, field), first_frame_, from, &timeline_);
 }

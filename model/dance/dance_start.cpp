@@ -20,8 +20,7 @@
 namespace choreo {
 namespace {
 
-void ValidateAudioStart(const ModelInfo& model, const DanceStart::Audio& audio,
-                        int64_t first_frame) {
+void CheckAudioStart(const ModelInfo& model, const DanceStart::Audio& audio, int64_t first_frame) {
   const std::string field = "audio";
   if (!model.takes_music) {
     throw Error(ErrorCode::kUnimplemented, field, "this model does not take music");
@@ -57,7 +56,7 @@ void CheckStart(const DanceStart& start, const ModelInfo& model) {
   }
   if (!start.history.empty())
     throw InvalidArgument("before", "a history and a continuation exclude each other");
-  ValidateContinuation(model, *start.continuation, start.allow_inexact_resume, "continuation");
+  CheckContinuation(model, *start.continuation, start.allow_inexact_resume, "continuation");
 }
 
 }  // namespace
@@ -79,7 +78,7 @@ ValidDance::ValidDance(DanceConfig request, const ModelInfo& model) : Valid(std:
   if (config.generate_until)
     CheckedIn(*config.generate_until, 0, kMaxDanceFrames, "generate_until");
   if (config.audio) {
-    ValidateAudioStart(model, *config.audio, first);
+    CheckAudioStart(model, *config.audio, first);
     if (config.continuation && config.continuation->audio_from_sample &&
         config.audio->first_sample > *config.continuation->audio_from_sample) {
       throw Error(ErrorCode::kOutOfRange, "audio.first_sample",
@@ -106,20 +105,20 @@ ValidGroup::ValidGroup(GroupRequest group, const ModelInfo& model) : Valid(std::
   CheckedIn(request.FirstFrame(), 0, kMaxDanceFrames, "continuation.frame");
   if (request.target) {
     CheckKeyPose(model.skeleton, request.target->pose, "target");
-    ValidateMask(model.skeleton, request.target->mask, "target.mask");
+    CheckMask(model.skeleton, request.target->mask, "target.mask");
   }
-  ValidateKeyId(request.target_id, "target_id");
-  ValidateHit(request.hit, "hit");
+  CheckKeyId(request.target_id, "target_id");
+  CheckHit(request.hit, "hit");
   if (request.after) {
     if (!request.target) throw InvalidArgument("after", "needs a target");
     CheckKeyPose(model.skeleton, *request.after, "after");
   }
-  ValidateControls(request.controls, model, "controls");
+  CheckControls(request.controls, model, "controls");
   if (!request.audio) {
     if (!request.samples.empty()) throw InvalidArgument("samples", "come without their format");
     return;
   }
-  ValidateAudioStart(model, *request.audio, request.FirstFrame());
+  CheckAudioStart(model, *request.audio, request.FirstFrame());
   CheckSamples(request.samples, request.audio->channels, request.audio->first_sample);
 }
 

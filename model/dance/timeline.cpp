@@ -118,7 +118,7 @@ std::optional<KeyRejected> Timeline::BeforeTheDance(const std::string& id, int64
 std::optional<KeyRejected> Timeline::Set(Key key, const KeyMoment& when, const std::string& field) {
   CheckOpen(field);
   const std::string id = key.id;
-  ValidateKeyId(id, field + ".id");
+  CheckKeyId(id, field + ".id");
   const int64_t frame = Resolve(when, field);
   key.frame = frame;
   if (options_.end_frame && frame >= *options_.end_frame) {

@@ -17,13 +17,13 @@ int64_t CheckedIn(int64_t value, int64_t least, int64_t most, const std::string&
                                    ", " + std::to_string(most) + "]");
 }
 
-void ValidateKeyId(const std::string& id, const std::string& field) {
+void CheckKeyId(const std::string& id, const std::string& field) {
   if (!id.empty() && id.size() <= kMaxIdLength) return;
   throw InvalidArgument(field, "has " + std::to_string(id.size()) + " bytes, not 1 to " +
                                    std::to_string(kMaxIdLength));
 }
 
-void ValidateMask(const Skeleton& skeleton, const PoseMask& mask, const std::string& field) {
+void CheckMask(const Skeleton& skeleton, const PoseMask& mask, const std::string& field) {
   if (mask.joints.empty()) return;
   if (static_cast<int>(mask.joints.size()) != skeleton.joints()) {
     throw InvalidArgument(field + ".joints", std::to_string(mask.joints.size()) +
@@ -35,7 +35,7 @@ void ValidateMask(const Skeleton& skeleton, const PoseMask& mask, const std::str
   }
 }
 
-void ValidateFrames(std::span<const int64_t> frames, const std::string& field) {
+void CheckFrames(std::span<const int64_t> frames, const std::string& field) {
   for (size_t i = 0; i < frames.size(); ++i) {
     CheckedIn(frames[i], 0, kMaxDanceFrames, At(field, static_cast<int64_t>(i)));
     if (i > 0 && frames[i] <= frames[i - 1]) {
@@ -46,7 +46,7 @@ void ValidateFrames(std::span<const int64_t> frames, const std::string& field) {
   }
 }
 
-void ValidateHit(std::optional<double> hit, const std::string& field) {
+void CheckHit(std::optional<double> hit, const std::string& field) {
   if (hit) Range{0, kMaxHit}.Check(*hit, field);
 }
 
@@ -58,7 +58,7 @@ void CheckReached(const Continuation& continuation, const std::string& field) {
   for (size_t i = 0; i < continuation.reached.size(); ++i) {
     const KeyReached& key = continuation.reached[i];
     const std::string at = At(field, static_cast<int64_t>(i));
-    ValidateKeyId(key.id, at + ".id");
+    CheckKeyId(key.id, at + ".id");
     CheckedIn(key.frame, earliest, continuation.frame - 1, at + ".frame");
     earliest = key.frame + 1;
     for (const double figure :
@@ -71,8 +71,8 @@ void CheckReached(const Continuation& continuation, const std::string& field) {
 
 }  // namespace
 
-void ValidateContinuation(const ModelInfo& model, const Continuation& continuation,
-                          bool allow_inexact, const std::string& field) {
+void CheckContinuation(const ModelInfo& model, const Continuation& continuation, bool allow_inexact,
+                       const std::string& field) {
   // One more than the last frame, because a key may be in the last frame, and the dance ends after
   // it.
   CheckedIn(continuation.frame, 0, kMaxDanceFrames + 1, field + ".frame");

@@ -22,20 +22,20 @@ namespace choreo {
 int64_t CheckedIn(int64_t value, int64_t least, int64_t most, const std::string& field);
 
 /// Checks a key's id: 1 to kMaxIdLength bytes.
-void ValidateKeyId(const std::string& id, const std::string& field);
+void CheckKeyId(const std::string& id, const std::string& field);
 
 /// Checks a mask for this skeleton. The mask must not be empty.
-void ValidateMask(const Skeleton& skeleton, const PoseMask& mask, const std::string& field);
+void CheckMask(const Skeleton& skeleton, const PoseMask& mask, const std::string& field);
 
 /// Checks a control's frames: strictly ascending, within the longest dance.
-void ValidateFrames(std::span<const int64_t> frames, const std::string& field);
+void CheckFrames(std::span<const int64_t> frames, const std::string& field);
 
 /// Checks a hit: none, or 0 to kMaxHit.
-void ValidateHit(std::optional<double> hit, const std::string& field);
+void CheckHit(std::optional<double> hit, const std::string& field);
 /// Checks a continuation: tau poses, a valid frame, and the model's fingerprint. Another
 /// fingerprint throws Error(kFailedPrecondition) unless `allow_inexact`; other faults throw
 /// Error(kInvalidArgument).
-void ValidateContinuation(const ModelInfo& model, const Continuation& continuation,
-                          bool allow_inexact, const std::string& field);
+void CheckContinuation(const ModelInfo& model, const Continuation& continuation, bool allow_inexact,
+                       const std::string& field);
 
 }  // namespace choreo

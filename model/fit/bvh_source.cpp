@@ -173,7 +173,7 @@ SourceMapping BvhSource(const PositionClip& clip) {
 }
 
 SourceMapping RigSource(const PositionClip& clip, const HumanBones& found) {
-  ValidateClip(clip);
+  CheckClip(clip);
   const ClipBones bones(clip, found);
   for (const std::string side : {"left_", "right_"}) {
     for (const char* bone : kNeededLimbBones) bones.Need(side + bone);

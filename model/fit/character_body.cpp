@@ -34,7 +34,7 @@ class BodyBuilder {
     skeleton.name = "character";
     skeleton.AssignRoles();
     Stand();
-    skeleton.Validate();
+    skeleton.Check();
     return std::move(body_);
   }
 

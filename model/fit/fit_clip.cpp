@@ -37,7 +37,7 @@ double Ground(const Skeleton& skeleton, Motion& motion) {
 
 FitResult FitClip(const PositionClip& clip, const SourceMapping& mapping, const Skeleton& skeleton,
                   const FitOptions& options) {
-  ValidateClip(clip);
+  CheckClip(clip);
   const BoneNormaliser normaliser(skeleton, mapping, clip.joint_names);
   const SourceSize size = normaliser.Measure(clip);
   const size_t count = clip.frames.size();

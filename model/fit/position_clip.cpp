@@ -37,7 +37,7 @@ Biquad ButterworthLowPass(double cutoff, double fps) {
 
 }  // namespace
 
-void ValidateClip(const PositionClip& clip) {
+void CheckClip(const PositionClip& clip) {
   if (!(clip.fps > 0) || !std::isfinite(clip.fps)) {
     throw InvalidArgument("clip.fps", std::to_string(clip.fps) + ", must be above 0");
   }

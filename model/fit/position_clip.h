@@ -8,7 +8,7 @@
 
 /// Joint positions of a recorded dancer over time, and corrections of raw recordings before
 /// fitting. Right-handed, Y up, metres, seconds. The corrections expect a clip that passes
-/// ValidateClip.
+/// CheckClip.
 namespace choreo {
 
 struct PositionClip {
@@ -19,7 +19,7 @@ struct PositionClip {
 
 /// Throws Error(kInvalidArgument) for a clip without frames or rate, and names the first frame with
 /// another joint count or a value that is not finite.
-void ValidateClip(const PositionClip& clip);
+void CheckClip(const PositionClip& clip);
 
 /// Low-pass filters each coordinate by a second-order Butterworth filter, run forwards and
 /// backwards (zero phase, fourth order in all), with ends extended by odd reflection. `cutoff_hz` >

@@ -343,7 +343,7 @@ ContinuousFlowCheckpoint ParseContinuousFlow(const Safetensors& content, const s
   }
   auto checkpoint = BuildCheckpoint<ContinuousFlow, ContinuousFlowConfig>(
       CheckpointFile(content, name, kFormat), whole);
-  checkpoint.model->config().Validate(name + ": config");
+  checkpoint.model->config().Check(name + ": config");
   if (!checkpoint.model->Parts().curve.IsValid())
     throw InvalidArgument(name + ": " + kCurve, "is not a correlation: it leaves [-1, 1]");
   return checkpoint;

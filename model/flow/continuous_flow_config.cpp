@@ -5,12 +5,12 @@
 
 namespace choreo {
 
-void ContinuousFlowConfig::Validate(const std::string& field) const {
+void ContinuousFlowConfig::Check(const std::string& field) const {
   constexpr int kMaxSteps = 64;
   if (steps < 1 || steps > kMaxSteps)
     throw InvalidArgument(field + ".steps", std::to_string(steps) + " is not in [1, " +
                                                 std::to_string(kMaxSteps) + "]");
-  plan.Validate(field + ".plan");
+  plan.Check(field + ".plan");
 }
 
 CHOREO_JSON_FIELDS(ContinuousFlowConfig, name, history_frames, window_frames, max_transition_frames,

@@ -38,7 +38,7 @@ struct ContinuousFlowConfig {
   PlanOptions plan = {};
 
   /// Throws Error(kInvalidArgument) below `field` for steps out of range, and what `plan` throws.
-  void Validate(const std::string& field) const;
+  void Check(const std::string& field) const;
 };
 
 void to_json(nlohmann::json& json, const ContinuousFlowConfig& config);

@@ -68,7 +68,7 @@ std::optional<Skeleton> OwnSkeleton(const std::vector<std::string>& names,
   skeleton.AssignRoles();
   skeleton.StandOnFloor();
   try {
-    skeleton.Validate();
+    skeleton.Check();
     skeleton.RequireRoles();
   } catch (const Error&) {
     return std::nullopt;

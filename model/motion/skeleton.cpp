@@ -54,7 +54,7 @@ Skeleton MakeSmpl24() {
     skeleton.AddJoint(joint.name, joint.parent, {joint.x, joint.y, joint.z});
   skeleton.AssignRoles();
   skeleton.StandOnFloor();
-  skeleton.Validate();
+  skeleton.Check();
   return skeleton;
 }
 
@@ -118,7 +118,7 @@ void Skeleton::StandOnFloor(double clearance) {
   pelvis_height = clearance - lowest;
 }
 
-void Skeleton::Validate() const {
+void Skeleton::Check() const {
   if (parents.empty()) throw InvalidArgument("skeleton.parents", "0 joints, at least 1 is needed");
   if (joint_names.size() != parents.size()) {
     throw InvalidArgument(

@@ -44,7 +44,7 @@ struct Skeleton {
 
   /// Throws Error(kInvalidArgument), naming the first joint that breaks an invariant above or has
   /// two roles.
-  void Validate() const;
+  void Check() const;
   /// Throws Error(kInvalidArgument), naming the first role that no joint has. Dancing needs only
   /// the feet; fitting, retargeting and judging limbs need all roles.
   void RequireRoles() const;

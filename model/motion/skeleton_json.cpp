@@ -62,7 +62,7 @@ Skeleton SkeletonFromJson(const std::string& text) {
   } catch (const json::exception& error) {
     throw InvalidArgument("skeleton", std::string("can't be read: ") + error.what());
   }
-  skeleton.Validate();
+  skeleton.Check();
   return skeleton;
 }
 

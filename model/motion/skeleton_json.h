@@ -12,7 +12,7 @@ namespace choreo {
 std::string SkeletonToJson(const Skeleton& skeleton);
 
 /// The inverse. Throws Error(kInvalidArgument), which names a missing member, and what
-/// Skeleton::Validate throws.
+/// Skeleton::Check throws.
 Skeleton SkeletonFromJson(const std::string& text);
 
 }  // namespace choreo

@@ -8,7 +8,7 @@
 
 namespace choreo {
 
-void FootworkOptions::Validate(const std::string& field) const {
+void FootworkOptions::Check(const std::string& field) const {
   const std::pair<std::string_view, double> all[] = {{"step_cost", step_cost},
                                                      {"flight_cost", flight_cost},
                                                      {"shortest_step", shortest_step},

@@ -22,7 +22,7 @@ struct FootworkOptions {
   double sole = 0.06;  ///< metres that a foot supports around its toes and ankle
 
   /// Throws Error(kInvalidArgument, field) for an option that is not above 0.
-  void Validate(const std::string& field) const;
+  void Check(const std::string& field) const;
 };
 
 void to_json(nlohmann::json& json, const FootworkOptions& options);

@@ -18,7 +18,7 @@ struct PlanOptions {
 
   /// Throws Error(kInvalidArgument, field) for options with which time could run backwards or a
   /// hinge would never stop.
-  void Validate(const std::string& field) const;
+  void Check(const std::string& field) const;
 };
 
 void to_json(nlohmann::json& json, const PlanOptions& options);

@@ -17,7 +17,7 @@ BeatGrid Skip(BeatGrid grid, double skipped_s) {
 }
 
 double SpeedPowerAt(const PositionClip& clip, double period_s) {
-  ValidateClip(clip);
+  CheckClip(clip);
   const auto steps = static_cast<Eigen::Index>(clip.frames.size()) - 1;
   if (steps < 2) throw InvalidArgument("frames", std::to_string(steps + 1) + ", must be 3 or more");
   Eigen::ArrayXd speed(steps);

@@ -117,7 +117,7 @@ PositionClip OnLevelFloor(const PositionClip& clip, const SourceMapping& mapping
 Motion FitPositions(const Recording& recording, json& report, double& skipped_s) {
   json& warnings = report["warnings"];
   PositionClip clip = recording.positions;
-  ValidateClip(clip);
+  CheckClip(clip);
   const int calibration = SkipCalibration(clip);
   clip.frames.erase(clip.frames.begin(), clip.frames.begin() + calibration);
   report["spikes_repaired"] = RemoveSpikes(kTopSpeed, 6, clip);

@@ -34,7 +34,7 @@ double Extent(const Eigen::RowVectorXd& row) {
 }  // namespace
 
 FloorPlane FitFloorPlane(const PositionClip& clip, const std::vector<int>& foot_joints) {
-  ValidateClip(clip);
+  CheckClip(clip);
   const Eigen::Matrix3Xd feet = LowestFeet(clip, foot_joints);
   const std::vector<double> heights(feet.row(1).begin(), feet.row(1).end());
   FloorPlane plane;
@@ -93,7 +93,7 @@ PositionClip LevelFloor(const PositionClip& clip, const FloorPlane& plane) {
 }
 
 PositionClip RemoveHeightDrift(const PositionClip& clip, const std::vector<int>& foot_joints) {
-  ValidateClip(clip);
+  CheckClip(clip);
   const Eigen::Matrix3Xd feet = LowestFeet(clip, foot_joints);
   const std::vector<double> floor =
       SlowQuantile({feet.row(1).begin(), feet.row(1).end()}, 0.1, kDriftWindowSeconds * clip.fps);

@@ -21,7 +21,7 @@ std::vector<RecordingSource> OnNativeSkeleton(const std::vector<RecordingSource>
   for (const RecordingSource& source : sources) {
     try {
       PositionClip clip = source.read().positions;
-      ValidateClip(clip);
+      CheckClip(clip);
       clips.push_back(std::move(clip));
     } catch (const std::exception&) {
     }

@@ -30,7 +30,7 @@ std::string TrainOptions::Fixed() const {
   return "--preset " + preset + text.Text();
 }
 
-void TrainOptions::Validate() const {
+void TrainOptions::Check() const {
   Require(name.size() <= kMaxNameBytes, "--name", name,
           "at most " + std::to_string(kMaxNameBytes) + " bytes");
   Require(!data.empty(), "--data", "nothing", "at least one folder of prepared clips");

@@ -46,7 +46,7 @@ struct TrainOptions {
   /// The options that a resumed run must repeat: all of Command() except names and paths.
   virtual std::string Fixed() const;
   /// Throws Error(kInvalidArgument), naming the option, for an invalid value.
-  virtual void Validate() const;
+  virtual void Check() const;
 };
 
 /// Throws Error(kInvalidArgument, option) unless `good`: "VALUE, but it must be LIMIT".

@@ -107,7 +107,7 @@ class TrainingRun {
 /// Loads the clips and makes a run of class `Run`.
 template <typename Run, typename Options>
 void TrainBy(const Options& options) {
-  options.Validate();
+  options.Check();
   const TrainingClips clips = {LoadClips(options.data, options.splits, kTrainGroup),
                                LoadClips(options.data, options.splits, kValidationGroup)};
   Run(options, clips).Go();

@@ -69,7 +69,7 @@ Skeleton FromProto(const v1::Skeleton& skeleton) {
   out.AssignRoles();
   out.pelvis_height = skeleton.pelvis_height();
   std::copy(skeleton.feet().begin(), skeleton.feet().end(), out.feet.begin());
-  out.Validate();
+  out.Check();
   return out;
 }
 

@@ -38,7 +38,7 @@ class TransitionSession final : public CallSession<v1::GenerateTransitionRespons
       ReadMessage(bytes, &message);
       if (!message.has_config()) throw InvalidArgument("config", "missing");
       queue_ = serving_.models.Find(message.config().model(), "config.model");
-      // Validates before decoding, so that an invalid request costs no decoding.
+      // Checks before decoding, so that an invalid request costs no decoding.
       ValidGroup request = ToGroupRequest(message, queue_->model(), Serving::FreshSeed());
       Name(queue_->model(), request->seed);
       serving_.frames.ReserveTransition(this, *queue_, caller_name(),

@@ -31,7 +31,7 @@ std::vector<float> ReadSamples(const v1::Audio& audio, const v1::AudioFormat& fo
 /// The error for music in `field` without config.audio_format; it shows what to send.
 Error WithoutAudioFormat(const std::string& field);
 
-/// Converts controls. Throws if there are none. ValidateControls checks the values.
+/// Converts controls. Throws if there are none. CheckControls checks the values.
 ControlRequest ToControls(const v1::Controls& controls, const std::string& field);
 
 }  // namespace choreo

@@ -191,7 +191,7 @@ class Reading {
     unknown = CheckVariables(app_, &faults);
     faults.Try([&] {
       RequireNoEmptyFile(app_);
-      config.Validate();
+      config.Check();
     });
     faults.Throw();
     config.given = GivenIn(app_);
@@ -231,7 +231,7 @@ std::string ServerConfig::MetricsAddress() const {
   return metrics.find(':') == std::string::npos ? "127.0.0.1:" + metrics : metrics;
 }
 
-void ServerConfig::Validate() const {
+void ServerConfig::Check() const {
   FaultList faults;
   faults.Try([&] {
     CheckAddress("--listen", listen);

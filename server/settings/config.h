@@ -78,7 +78,7 @@ struct ServerConfig {
   }
 
   /// Throws Error(kInvalidArgument) naming the first unusable setting.
-  void Validate() const;
+  void Check() const;
 };
 
 /// The parsed command line: a valid configuration, or an `exit_code` to exit with (after printing

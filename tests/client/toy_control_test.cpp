@@ -24,7 +24,7 @@ namespace toy {
 /// Where the dancer looks in each frame: the latest request, interpolated between its rows.
 class GazeTrack {
  public:
-  static void Validate(const Gaze& gaze, const ModelInfo& /*model*/, const std::string& field) {
+  static void Check(const Gaze& gaze, const ModelInfo& /*model*/, const std::string& field) {
     if (!gaze.IsWhole()) throw InvalidArgument(field, "there must be a place for each frame");
   }
   ChangedFrames Set(const Gaze& gaze, int64_t from) {
@@ -117,9 +117,9 @@ TEST_F(ToyControl, GoesFromAProjectToTheNetworkAndTheReport) {
 
   ModelInfo model;
   model.skeleton = Skeleton::Smpl24();
-  EXPECT_THROW(ValidateControls(heard, model, "controls", toy::kRows), Error);
+  EXPECT_THROW(CheckControls(heard, model, "controls", toy::kRows), Error);
   model.controls = {"gaze"};
-  ValidateControls(heard, model, "controls", toy::kRows);
+  CheckControls(heard, model, "controls", toy::kRows);
   Track track(model);
   track.Set(heard, 0, "controls");
   TransitionSpec spec;

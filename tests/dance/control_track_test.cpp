@@ -43,7 +43,7 @@ class ControlTrackTest : public testing::Test {
   }
   void ExpectRefused(const ControlRequest& request, const std::string& message) const {
     ExpectError(ErrorCode::kInvalidArgument, message,
-                [&] { ValidateControls(request, sampler_.model(), "controls"); });
+                [&] { CheckControls(request, sampler_.model(), "controls"); });
   }
 
   const ControlledSampler sampler_;
@@ -348,7 +348,7 @@ TEST_F(ControlTrackTest, RefusesUnsupportedControls) {
   const FakeSampler plain;
   const auto refused = [&](const ControlRequest& request, const std::string& message) {
     ExpectError(ErrorCode::kInvalidArgument, message,
-                [&] { ValidateControls(request, plain.model(), "controls"); });
+                [&] { CheckControls(request, plain.model(), "controls"); });
   };
   refused(PathRequest({0, 9}, {0, 1}),
           "controls.root_path: the model \"fake\" does not have this control");

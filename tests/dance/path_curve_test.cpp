@@ -89,7 +89,7 @@ TEST(PathCurve, TurnsWithItsPoints) {
 TEST(RootPath, RefusesInvalidPaths) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const auto refused = [](const RootPath& path, const std::string& message) {
-    ExpectError(ErrorCode::kInvalidArgument, message, [&] { ValidatePath(path, "root_path"); });
+    ExpectError(ErrorCode::kInvalidArgument, message, [&] { CheckPath(path, "root_path"); });
   };
   refused(Path({}, {}), "root_path.points: 0 points, a path needs at least 2");
   refused(Path({4}, {{0, 0, 0}}), "root_path.points: 1 points, a path needs at least 2");
@@ -107,7 +107,7 @@ TEST(RootPath, RefusesInvalidPaths) {
   // Ten hours.
   refused(Path({0, 1'080'000}, {{0, 0, 0}, {0, 0, 1}}),
           "root_path.frames[1]: 1080000 is not in [0, 108000]");
-  EXPECT_NO_THROW(ValidatePath(Path({0, kMaxDanceFrames}, {{0, nan, 0}, {0, 0, 1}}), "root_path"));
+  EXPECT_NO_THROW(CheckPath(Path({0, kMaxDanceFrames}, {{0, nan, 0}, {0, 0, 1}}), "root_path"));
 }
 
 class LeadTest : public testing::Test {

@@ -55,7 +55,7 @@ TEST(Validation, PosesNameFieldValueAndLimit) {
 TEST(Validation, MasksFitTheSkeletonAndAreNotEmpty) {
   const Skeleton& skeleton = Skeleton::Smpl24();
   const auto refusal = [&skeleton](const PoseMask& mask) {
-    return Refusal([&] { ValidateMask(skeleton, mask, "target.mask"); });
+    return Refusal([&] { CheckMask(skeleton, mask, "target.mask"); });
   };
   EXPECT_EQ(refusal({}), "accepted");
   EXPECT_EQ(refusal({false, {}}), "accepted");

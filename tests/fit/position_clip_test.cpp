@@ -88,15 +88,15 @@ TEST(Clip, RefusesRaggedAndNonFiniteFrames) {
   PositionClip clip = Signal(30, 4, [](double t) { return t; });
   clip.frames[2] = Eigen::Matrix3Xd::Zero(3, 2);
   try {
-    ValidateClip(clip);
+    CheckClip(clip);
     FAIL();
   } catch (const Error& error) {
     EXPECT_EQ(error.field(), "clip.frames[2]");
   }
   clip = Signal(30, 4, [](double) { return std::nan(""); });
-  EXPECT_THROW(ValidateClip(clip), Error);
+  EXPECT_THROW(CheckClip(clip), Error);
   clip.frames.clear();
-  EXPECT_THROW(ValidateClip(clip), Error);
+  EXPECT_THROW(CheckClip(clip), Error);
 }
 
 }  // namespace choreo::position_clip_test

@@ -23,7 +23,7 @@ Skeleton Chain() {
   chain.offsets.setZero(3, 3);
   chain.offsets.col(1) << 1, 0, 0;
   chain.offsets.col(2) << 2, 0, 0;
-  chain.Validate();
+  chain.Check();
   return chain;
 }
 
@@ -167,27 +167,27 @@ TEST(Kinematics, ComparePosesMeasuresMaskedJointsAlone) {
   EXPECT_THROW(ComparePoses(chain, a, b, {.root_position = true, .joints = {true}}), Error);
 }
 
-TEST(Skeleton, ValidateNamesTheFirstInvalidJoint) {
+TEST(Skeleton, CheckNamesTheFirstInvalidJoint) {
   Skeleton broken = Chain();
   broken.parents[1] = 2;
   try {
-    broken.Validate();
+    broken.Check();
     FAIL();
   } catch (const Error& error) {
     EXPECT_EQ(error.field(), "skeleton.parents[1]");
   }
   broken = Chain();
   broken.joint_names[2] = "a";
-  EXPECT_THROW(broken.Validate(), Error);
+  EXPECT_THROW(broken.Check(), Error);
   broken = Chain();
   broken.offsets(0, 0) = 1;
-  EXPECT_THROW(broken.Validate(), Error);
+  EXPECT_THROW(broken.Check(), Error);
   broken = Chain();
   broken.offsets(0, 1) = std::nan("");
-  EXPECT_THROW(broken.Validate(), Error);
+  EXPECT_THROW(broken.Check(), Error);
   broken = Chain();
   broken.left_knee = 3;
-  EXPECT_THROW(broken.Validate(), Error);
+  EXPECT_THROW(broken.Check(), Error);
 }
 
 // Moving and turning the scene.

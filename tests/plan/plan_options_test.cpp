@@ -19,9 +19,9 @@ TEST(PlanOptions, MissingOptionsHaveDefaults) {
 TEST(PlanOptions, TimeNeverRunsBackwards) {
   PlanOptions options{.accent = 1};
   ExpectError(ErrorCode::kInvalidArgument, "config.plan.accent",
-              [&] { options.Validate("config.plan"); });
+              [&] { options.Check("config.plan"); });
   options.accent = 0.99;
-  EXPECT_NO_THROW(options.Validate("config.plan"));
+  EXPECT_NO_THROW(options.Check("config.plan"));
 }
 
 }  // namespace choreo::plan_options_test

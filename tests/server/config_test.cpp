@@ -150,7 +150,7 @@ TEST(ServerConfigTest, NamesAMissingFile) {
 TEST(ServerConfigTest, PortsEndAt65535) {
   ServerConfig config;
   config.listen = "127.0.0.1:65535";
-  config.Validate();
+  config.Check();
 }
 
 TEST(ServerConfigTest, HelpExplainsAndLeaves) {
@@ -374,7 +374,7 @@ TEST(ServerConfigTest, ACertificateNeedsItsKey) {
   ServerConfig config;
   config.tls_certificate = "cert.pem";
   try {
-    config.Validate();
+    config.Check();
     FAIL();
   } catch (const Error& error) {
     EXPECT_EQ(error.field(), "--tls-key");

@@ -84,7 +84,7 @@ TEST_F(TrainerTest, BlendsWithTheWeightsThatItStartedFrom) {
 TEST_F(TrainerTest, UnusableOptionsAreNamed) {
   const auto failure = [](TrainOptions options) -> std::string {
     try {
-      options.Validate();
+      options.Check();
     } catch (const Error& error) {
       return error.field();
     }

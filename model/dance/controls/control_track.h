@@ -24,7 +24,7 @@ namespace choreo {
 inline constexpr size_t kMaxControls = 1000;
 inline constexpr size_t kMaxControlValues = 1'000'000;
 
-/// Selects the class that tracks a control's requests over a dance. It has Validate, Set and Fill,
+/// Selects the class that tracks a control's requests over a dance. It has Check, Set and Fill,
 /// and may have Stance, BehindEnd and Missed.
 template <typename Request>
 struct TrackFor;
@@ -42,8 +42,8 @@ using TrackOf = typename TrackFor<Request>::Track;
 /// Throws Error(kInvalidArgument) below `field` for invalid values and for controls that the model
 /// does not support.
 template <typename Request>
-void ValidateControls(const Request& request, const ModelInfo& model, const std::string& field,
-                      std::span<const ControlRow> rows = kControls) {
+void CheckControls(const Request& request, const ModelInfo& model, const std::string& field,
+                   std::span<const ControlRow> rows = kControls) {
   Request::VisitControls(
       [&](size_t row, const auto& control) {
         if (!control) return;
@@ -52,7 +52,7 @@ void ValidateControls(const Request& request, const ModelInfo& model, const std:
           throw InvalidArgument(name,
                                 "the model \"" + model.name + "\" does not have this control");
         }
-        TrackOf<std::remove_cvref_t<decltype(*control)>>::Validate(*control, model, name);
+        TrackOf<std::remove_cvref_t<decltype(*control)>>::Check(*control, model, name);
       },
       request);
 }

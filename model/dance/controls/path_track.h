@@ -23,8 +23,8 @@ struct LeadRequest;
 /// Transitions without a path are left to the model.
 class PathTrack {
  public:
-  static void Validate(const RootPath& path, const ModelInfo& /*model*/, const std::string& field) {
-    ValidatePath(path, field);
+  static void Check(const RootPath& path, const ModelInfo& /*model*/, const std::string& field) {
+    CheckPath(path, field);
   }
   /// Changes the frames that the path covers.
   ChangedFrames Set(const RootPath& path, int64_t from) {

@@ -8,8 +8,8 @@
 
 namespace choreo {
 
-void ValidatePath(const RootPath& path, const std::string& field) {
-  ValidateFrames(path.frames, field + ".frames");
+void CheckPath(const RootPath& path, const std::string& field) {
+  CheckFrames(path.frames, field + ".frames");
   const size_t count = path.points.size(), frames = path.frames.size();
   const size_t heights = path.heights.size();
   if (count != frames) {

@@ -13,6 +13,6 @@ inline constexpr double kMaxRootHeight = 2;
 /// Throws Error(kInvalidArgument) below `field` for fewer than 2 points, frames that do not ascend
 /// or are outside a dance, points that are not finite or are further than kMaxPosition from the
 /// origin, different numbers of heights and points, or heights outside [0, kMaxRootHeight].
-void ValidatePath(const RootPath& path, const std::string& field);
+void CheckPath(const RootPath& path, const std::string& field);
 
 }  // namespace choreo

@@ -31,7 +31,7 @@ const std::vector<double>& ValuesOf(const VelocityRequest& request) {
   return IsAbsolute(request) ? request.speeds : request.factors;
 }
 
-void ValidateParts(const std::vector<std::string>& parts, const std::string& field) {
+void CheckParts(const std::vector<std::string>& parts, const std::string& field) {
   for (size_t i = 0; i < parts.size(); ++i) {
     const std::string at = field + "[" + std::to_string(i) + "]";
     if (!FindBodyPart(parts[i]))
@@ -66,10 +66,10 @@ float SpeedAt(const VelocityRequest& request, int64_t frame, BodyPart part,
 
 }  // namespace
 
-void VelocityTrack::Validate(const VelocityRequest& request, const ModelInfo& model,
-                             const std::string& field) {
-  ValidateFrames(request.frames, field + ".frames");
-  ValidateParts(request.parts, field + ".parts");
+void VelocityTrack::Check(const VelocityRequest& request, const ModelInfo& model,
+                          const std::string& field) {
+  CheckFrames(request.frames, field + ".frames");
+  CheckParts(request.parts, field + ".parts");
   const bool absolute = IsAbsolute(request);
   if (absolute && !request.factors.empty())
     throw InvalidArgument(field + ".speeds", "and factors exclude each other");

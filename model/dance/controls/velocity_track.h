@@ -21,8 +21,8 @@ class VelocityTrack {
   /// Throws Error(kInvalidArgument) below `field` for wrong numbers of rows or columns, for factors
   /// outside [0, kMaxVelocityFactor] or speeds outside [0, kMaxVelocity], and for a reference that
   /// the model lacks.
-  static void Validate(const VelocityRequest& request, const ModelInfo& model,
-                       const std::string& field);
+  static void Check(const VelocityRequest& request, const ModelInfo& model,
+                    const std::string& field);
   /// Changes all frames; before the first and after the last row, the nearest one applies.
   ChangedFrames Set(const VelocityRequest& request, int64_t from) {
     requests_.push_back({from, std::make_shared<VelocityRequest>(request)});

@@ -28,8 +28,8 @@ std::string PaperOptions::Fixed() const {
   return "--preset " + preset + text.Text();
 }
 
-void PaperOptions::Validate() const {
-  TrainOptions::Validate();
+void PaperOptions::Check() const {
+  TrainOptions::Check();
   Require(shortest >= 2 && shortest <= longest && longest <= 600, "--longest",
           std::to_string(longest), "from --shortest (at least 2) to 600");
   Require(flow.flow_steps >= 0 && flow.flow_steps <= 64, "--flow-steps",

@@ -53,7 +53,7 @@ struct PaperOptions : TrainOptions {
   bool IsInbetweener() const { return preset == kInbetweenerPreset; }
   std::string Command() const override;
   std::string Fixed() const override;
-  void Validate() const override;
+  void Check() const override;
 };
 
 /// VisitFixed for options that only the papers' presets have: `visit(option, value, is_used,

@@ -300,7 +300,7 @@ TEST_F(PaperTrainerTest, ControllersContinueFromAnotherNetwork) {
 TEST_F(PaperTrainerTest, UnusableOptionsAreNamed) {
   const auto failure = [](PaperOptions options) -> std::string {
     try {
-      options.Validate();
+      options.Check();
     } catch (const Error& error) {
       return error.field();
     }
