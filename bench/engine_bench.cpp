@@ -113,7 +113,7 @@ void Feet(benchmark::State& state, Sampler& sampler) {
                                 .history = spec.history,
                                 .keyed = true,
                                 .fps = sampler.model().fps,
-                                .options = sampler.model().plan.footwork};
+                                .options = sampler.model().plan_options.footwork};
   for (auto _ : state) {
     std::vector<Pose> plan = drawn;
     benchmark::DoNotOptimize(StandOnFeet(context, &plan));

@@ -89,22 +89,22 @@ DanceMusic::DanceMusic(const ModelInfo& model, const DanceStart& start, const Au
     : has_beats_(!start.music_beats.empty()),
       energies_(start.music_energies),
       count_(start.music_beats.size()) {
-  plan_.model_ = &model;
-  plan_.audio_ = audio;
-  plan_.dynamics_ = start.Dynamics();
-  plan_.id_ = start.music_id;
+  planned_.model_ = &model;
+  planned_.audio_ = audio;
+  planned_.dynamics_ = start.Dynamics();
+  planned_.id_ = start.music_id;
   if (has_beats_) {
     ReplaceBeats(start.music_beats.front(), start.music_beats, start.music_downbeats,
                  {.source = Beat::Source::kGiven});
   } else if (audio != nullptr && detects) {
-    plan_.heard_ = std::make_shared<BeatMemory>();
+    planned_.heard_ = std::make_shared<BeatMemory>();
   }
 }
 
 void DanceMusic::ReplaceBeats(double begin, std::span<const double> seconds,
                               std::span<const double> downbeats, const Beat& like) {
-  std::vector<Beat>& known = plan_.beats_;
-  auto& spans = plan_.spans_;
+  std::vector<Beat>& known = planned_.beats_;
+  auto& spans = planned_.spans_;
   const auto at = [&](double time) {
     return std::ranges::lower_bound(known, time, {}, &Beat::time_s);
   };
@@ -125,20 +125,20 @@ void DanceMusic::ReplaceBeats(double begin, std::span<const double> seconds,
 }
 
 void DanceMusic::SetWhole(const MusicAnalysis& music) {
-  if (plan_.id_ == 0) plan_.id_ = music.id;
+  if (planned_.id_ == 0) planned_.id_ = music.id;
   if (energies_.empty()) energies_ = music.energies;
   if (has_beats_) return;
-  plan_.heard_.reset();
-  plan_.beats_.clear();
+  planned_.heard_.reset();
+  planned_.beats_.clear();
   if (music.beats.empty()) return;
   ReplaceBeats(music.beats.front(), music.beats, music.downbeats, {.source = Beat::Source::kFound});
   for (size_t i = 0; i < music.confidence.size(); ++i)
-    plan_.beats_[i].confidence = music.confidence[i];
+    planned_.beats_[i].confidence = music.confidence[i];
 }
 
 std::vector<double> DanceMusic::GivenAfter(double second) const {
   if (!has_beats_) return {};
-  std::vector<double> after = SecondsOf(plan_.beats_);
+  std::vector<double> after = SecondsOf(planned_.beats_);
   std::erase_if(after, [second](double beat) { return beat <= second; });
   return after;
 }
@@ -152,7 +152,7 @@ int64_t DanceMusic::GiveBeats(std::span<const double> seconds, int64_t from,
                                      std::to_string(kMaxBeats));
   }
   count_ += seconds.size();
-  const auto ahead = std::ranges::lower_bound(seconds, plan_.Seconds(from));
+  const auto ahead = std::ranges::lower_bound(seconds, planned_.Seconds(from));
   if (ahead != seconds.end()) {
     given_.push_back({from,
                       seconds.front(),
@@ -166,25 +166,26 @@ int64_t DanceMusic::GiveBeats(std::span<const double> seconds, int64_t from,
 PlannedMusic DanceMusic::PlanFor(const Segment& segment, int64_t rows_end) {
   for (; !given_.empty() && given_.front().from <= segment.from; given_.pop_front()) {
     const Given& given = given_.front();
-    const bool is_predicted = given.confidence && plan_.audio_ != nullptr;
+    const bool is_predicted = given.confidence && planned_.audio_ != nullptr;
     ReplaceBeats(given.begin, given.seconds, given.downbeats,
                  {.source = is_predicted ? Beat::Source::kPredicted : Beat::Source::kGiven,
                   .confidence = given.confidence.value_or(1)});
   }
-  plan_.from_ = segment.from;
-  plan_.to_ = segment.to;
-  plan_.rows_end_ = rows_end;
-  plan_.song_energy_ = SongEnergy(energies_, segment);
+  planned_.from_ = segment.from;
+  planned_.to_ = segment.to;
+  planned_.rows_end_ = rows_end;
+  planned_.song_energy_ = SongEnergy(energies_, segment);
   WatchForTurn(segment);
-  return plan_;
+  return planned_;
 }
 
 void DanceMusic::WatchForTurn(const Segment& segment) {
   last_ = next_ - 1;
   // A model that hears gets the music of the transition itself.
-  const bool listens = plan_.audio_ != nullptr && plan_.dynamics_ > 0 && !plan_.model_->hearing;
+  const bool listens =
+      planned_.audio_ != nullptr && planned_.dynamics_ > 0 && !planned_.model_->hearing;
   if (!listens || segment.from < kLevelRows) return;
-  level_ = HearLevel(plan_.audio_->Sounds(segment.from, kLevelRows), turns_);
+  level_ = HearLevel(planned_.audio_->Sounds(segment.from, kLevelRows), turns_);
   next_ = segment.from + turns_.turn_after;
   next_ += (turns_.turn_step - next_ % turns_.turn_step) % turns_.turn_step;
   last_ = segment.key ? segment.to - turns_.turn_before_key : segment.to - 1;
@@ -193,7 +194,7 @@ void DanceMusic::WatchForTurn(const Segment& segment) {
 std::optional<int64_t> DanceMusic::FindTurn(int64_t ready, int64_t stop) {
   const int64_t last = std::min({last_, ready, stop - 1});
   for (; next_ <= last; next_ += turns_.turn_step) {
-    if (Turns(level_, HearLevel(plan_.audio_->Sounds(next_, kLevelRows), turns_), turns_))
+    if (Turns(level_, HearLevel(planned_.audio_->Sounds(next_, kLevelRows), turns_), turns_))
       return next_;
   }
   return std::nullopt;

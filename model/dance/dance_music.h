@@ -119,10 +119,10 @@ class DanceMusic {
                     std::span<const double> downbeats, const Beat& like);
   void WatchForTurn(const Segment& segment);
 
-  PlannedMusic plan_;            // for the last planned transition; modified for the next
+  PlannedMusic planned_;         // for the last planned transition; modified for the next
   const bool has_beats_;         // whether the config has beats
   std::vector<float> energies_;  // KnownMusic::music_energies
-  std::deque<Given> given_;      // beats not yet in plan_
+  std::deque<Given> given_;      // beats not yet in planned_
   size_t count_;                 // total number of given beats
 
   const MusicDynamicsOptions turns_ = {};

@@ -303,16 +303,16 @@ std::deque<Timeline::Granted>::const_iterator Timeline::GrantBeyond(int64_t fram
 }
 
 // A later grant stops the transition at the frontier of its time if it found a change.
-void Timeline::Settle(Plan* plan) const {
-  Segment& segment = plan->segment;
-  for (auto grant = GrantBeyond(plan->settled);
-       grant != grants_.end() && plan->settled < segment.stop; ++grant) {
+void Timeline::Settle(PlannedSegment* planned) const {
+  Segment& segment = planned->segment;
+  for (auto grant = GrantBeyond(planned->settled);
+       grant != grants_.end() && planned->settled < segment.stop; ++grant) {
     Segment again = SegmentFrom(segment.from, *grant);
     const bool is_same =
         AreDancedAlike(segment.key, again.key) && AreDancedAlike(segment.later, again.later);
     if (is_same) segment.key = std::move(again.key);  // its hands may have changed
-    if (!is_same || grant->changed_from < segment.to) segment.stop = plan->settled;
-    plan->settled = grant->to;
+    if (!is_same || grant->changed_from < segment.to) segment.stop = planned->settled;
+    planned->settled = grant->to;
   }
 }
 

@@ -147,7 +147,7 @@ class Timeline {
     std::optional<Key> next;  // the first key after them
     int64_t changed_from;     // the first frame named in NoteChange since the previous grant
   };
-  struct Plan {
+  struct PlannedSegment {
     Segment segment;
     int64_t settled;  // grants of frames before this one have been processed
   };
@@ -167,7 +167,7 @@ class Timeline {
   std::optional<Key> KeyFrom(int64_t frame) const;
   Segment SegmentFrom(int64_t frame, const Granted& known) const;
   std::deque<Granted>::const_iterator GrantBeyond(int64_t frame) const;
-  void Settle(Plan* plan) const;
+  void Settle(PlannedSegment* planned) const;
   std::optional<int64_t> CutAfter(int64_t frame, bool has_key) const;
   bool PlanNext();
 
@@ -184,9 +184,9 @@ class Timeline {
   std::optional<int64_t> audio_end_;
   std::vector<int64_t> cuts_;
   CutRule cut_rule_;
-  std::deque<Granted> grants_;  // grants on which current and later transitions depend
-  int64_t danced_to_;           // where the current transition begins
-  std::deque<Plan> planned_;    // the first is the current one
+  std::deque<Granted> grants_;          // grants on which current and later transitions depend
+  int64_t danced_to_;                   // where the current transition begins
+  std::deque<PlannedSegment> planned_;  // the first is the current one
 };
 
 }  // namespace choreo

@@ -129,7 +129,7 @@ std::vector<Pose> RealThroughFootwork(const ModelInfo& model, const LongPlan& pl
                  .history = std::span(emitted).last(plan.history.size()),
                  .keyed = keyed,
                  .fps = model.fps,
-                 .options = model.plan.footwork},
+                 .options = model.plan_options.footwork},
                 &piece);
     std::vector<Pose> standing;
     for (const Pose& pose : piece) standing.push_back(RoundToFloat(pose));

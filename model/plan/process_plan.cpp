@@ -95,7 +95,7 @@ Slices<ProcessedPlan> ProcessPlan(const ModelInfo& model, const ValidSpec& valid
                             .has_path = path.IsGiven(),
                             .has_heights = path.IsRequested(kPathHeight),
                             .fps = model.fps,
-                            .options = model.plan};
+                            .options = model.plan_options};
   if (model.plan_stages && !held) {
     for (const auto stage : kPlanStages) stage(context, &poses);
   }
@@ -123,7 +123,7 @@ Slices<ProcessedPlan> ProcessPlan(const ModelInfo& model, const ValidSpec& valid
                                .has_path = context.has_path,
                                .has_heights = context.has_heights,
                                .fps = model.fps,
-                               .options = model.plan.footwork};
+                               .options = model.plan_options.footwork};
     co_await CorrectFootwork(feet, &processed.plan);
   }
   if (processed.plan.contacts.empty())

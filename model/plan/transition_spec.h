@@ -60,8 +60,8 @@ struct ModelInfo {
   /// "median", is the default.
   std::vector<VelocityReference> velocity_references = {};
   std::vector<std::string> styles = {};  ///< available for requests
-  bool plan_stages = false;  ///< whether its plans pass kPlanStages (plan/plan_stages.h)
-  PlanOptions plan = {};     ///< settings of kPlanStages and of footwork
+  bool plan_stages = false;       ///< whether its plans pass kPlanStages (plan/plan_stages.h)
+  PlanOptions plan_options = {};  ///< settings of kPlanStages and of footwork
 
   bool Takes(std::string_view control) const {
     return std::ranges::find(controls, control) != controls.end();

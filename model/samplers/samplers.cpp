@@ -43,7 +43,7 @@ SamplerFactory LoadContinuousFlow(const Safetensors& content, const std::string&
   info.velocity_references = {MedianReference(config.median_factors)};
   info.styles = config.styles;
   info.plan_stages = true;
-  info.plan = config.plan;
+  info.plan_options = config.plan;
   return [info, device = request.device.name(), parts, network] {
     return std::make_unique<ContinuousFlowSampler>(info, device, parts, network);
   };
