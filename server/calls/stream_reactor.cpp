@@ -132,20 +132,20 @@ class DanceSession final : public CallSession<DanceResponse, DanceStream>,
       case DanceRequest::kAudio:
         return HandleAudio(*stream, request.audio());
       case DanceRequest::kKeyframe:
-        return Number(request, request.keyframe().id(),
-                      [&] { HandleKeyframe(*stream, request.keyframe()); });
+        return HandleRepeatable(request, request.keyframe().id(),
+                                [&] { HandleKeyframe(*stream, request.keyframe()); });
       case DanceRequest::kRemoveKeyframe:
-        return Number(request, request.remove_keyframe().id(),
-                      [&] { RemoveKeyframe(*stream, request.remove_keyframe().id()); });
+        return HandleRepeatable(request, request.remove_keyframe().id(),
+                                [&] { RemoveKeyframe(*stream, request.remove_keyframe().id()); });
       case DanceRequest::kControls:
-        return Number(request, "", [&] {
+        return HandleRepeatable(request, "", [&] {
           const ControlRequest controls = ToControls(request.controls(), "controls");
           wire::WithPaths([&] { stream->SetControls(controls); });
         });
       case DanceRequest::kMusicBeats:
-        return Number(request, "", [&] { GiveBeats(*stream, request.music_beats()); });
+        return HandleRepeatable(request, "", [&] { GiveBeats(*stream, request.music_beats()); });
       case DanceRequest::kMusicPassages:
-        return Number(request, "", [&] {
+        return HandleRepeatable(request, "", [&] {
           const auto passages = wire::ToPassages(request.music_passages().passages());
           wire::WithPaths([&] { stream->GivePassages(passages); });
         });
@@ -165,10 +165,11 @@ class DanceSession final : public CallSession<DanceResponse, DanceStream>,
 
   // Handles a message of a repeatable kind. Errors give its index among the accepted messages of
   // that kind.
-  void Number(const DanceRequest& request, const std::string& key_id, const auto& take) {
+  void HandleRepeatable(const DanceRequest& request, const std::string& key_id,
+                        const auto& handle) {
     int& number = accepted_[request.request_case()];
     try {
-      take();
+      handle();
     } catch (const Error& error) {
       if (error.field().empty()) throw;
       throw MessageError(error, number, key_id);
