@@ -14,10 +14,10 @@
 #include "client/dance_messages.h"
 #include "client/server_description.h"
 #include "model/core/error.h"
-#include "model/core/limits.h"
 #include "model/messages/quality_report.h"
 #include "model/motion/motion.h"
 #include "model/motion/velocity_factors.h"
+#include "network/protocol.h"
 
 /// A client for choreod, in plain C++ without protobuf or gRPC types.
 ///

@@ -12,10 +12,10 @@
 #include <cmath>
 #include <sstream>
 
-#include "model/core/address.h"
-#include "model/core/limits.h"
 #include "model/core/rounded.h"
-#include "tls/pem.h"
+#include "network/address.h"
+#include "network/pem.h"
+#include "network/protocol.h"
 
 namespace choreo::client {
 namespace {

@@ -4,12 +4,13 @@ include(CMakePackageConfigHelpers)
 
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/choreo)
 install(TARGETS choreo RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT programs)
-install(TARGETS choreo_client choreo_motion choreo_rounded choreo_tls choreo_proto choreo_wire EXPORT choreoTargets
+install(TARGETS choreo_client choreo_motion choreo_rounded choreo_network choreo_proto choreo_wire EXPORT choreoTargets
   ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
   INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/choreo)
 install(FILES client/choreo_client.h client/dance_config.h client/dance_messages.h client/edit.h client/server_description.h
   DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/choreo/client)
 install(FILES model/core/error.h model/core/grid.h model/core/hand_pose.h model/core/hit.h model/core/joined.h model/core/limits.h model/core/passage.h model/core/range.h model/core/rounded.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/choreo/model/core)
+install(FILES network/protocol.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/choreo/network)
 install(FILES model/messages/call_timing.h model/messages/dance_event.h model/messages/dance_header.h model/messages/dance_manner.h model/messages/model_description.h model/messages/quality_report.h model/messages/style_figures.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/choreo/model/messages)
 # What these headers include, and the pose at rest, from which key poses are made.
 install(FILES model/motion/control_request.h model/motion/kinematics.h model/motion/motion.h model/motion/skeleton.h model/motion/velocity_factors.h

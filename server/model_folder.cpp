@@ -11,8 +11,8 @@
 
 #include "model/core/error.h"
 #include "model/core/printable.h"
+#include "network/pem.h"
 #include "server/settings/fault_list.h"
-#include "tls/pem.h"
 
 namespace choreo {
 namespace {

@@ -16,9 +16,9 @@
 #include <utility>
 #include <vector>
 
-#include "model/core/address.h"
 #include "model/core/error.h"
 #include "model/core/programs.h"
+#include "network/address.h"
 #include "server/connections/listener.h"
 #include "server/process/service_manager.h"
 #include "server/server.h"

@@ -18,8 +18,8 @@
 #include <thread>
 
 #include "model/core/error.h"
-#include "model/core/limits.h"
 #include "model/core/threads.h"
+#include "network/protocol.h"
 #include "server/accept_guard.h"
 #include "server/calls/service.h"
 #include "server/calls/serving.h"

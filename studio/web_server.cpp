@@ -7,9 +7,9 @@
 #include <chrono>
 #include <optional>
 
-#include "model/core/address.h"
 #include "model/core/error.h"
-#include "model/core/limits.h"
+#include "network/address.h"
+#include "network/protocol.h"
 #include "studio/page.h"
 #include "studio/socket.h"
 

@@ -8,10 +8,10 @@
 #include <utility>
 #include <vector>
 
-#include "model/core/address.h"
 #include "model/core/error.h"
-#include "model/core/limits.h"
 #include "model/motion/rotation.h"
+#include "network/address.h"
+#include "network/protocol.h"
 
 namespace choreo::live {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "model/core/grid.h"
 
-/// The API's limits and default port, shared by servers and clients.
+/// The API's limits, shared by servers and clients.
 namespace choreo {
 
 inline constexpr int kMaxTransitionFrames = 1800;    ///< in one transition: a minute
@@ -21,12 +21,5 @@ inline constexpr double kMinOutputFps = 1, kMaxOutputFps = 120;  ///< frames per
 inline constexpr size_t kMaxNameBytes = 64;  ///< in a model's name, which metrics and logs repeat
 inline constexpr size_t kMaxIdLength = 256;  ///< bytes in a key's id
 inline constexpr size_t kMaxFingerprintLength = 1024;  ///< bytes
-
-/// The least silence, seconds, after which a client may treat a server as lost. Clients ping twice
-/// in this time; servers allow four pings.
-inline constexpr double kMinSilence = 2;
-
-inline constexpr int kDefaultPort = 50051;  ///< of choreod
-inline constexpr int kMaxPort = 65'535;
 
 }  // namespace choreo

@@ -9,7 +9,7 @@
 #include <random>
 #include <utility>
 
-#include "model/core/address.h"
+#include "network/address.h"
 
 namespace choreo {
 namespace {

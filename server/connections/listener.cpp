@@ -16,8 +16,8 @@
 #include <cstring>
 #include <memory>
 
-#include "model/core/address.h"
 #include "model/core/error.h"
+#include "network/address.h"
 
 namespace choreo {
 namespace {

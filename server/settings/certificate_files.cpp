@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "model/core/error.h"
-#include "tls/pem.h"
+#include "network/pem.h"
 
 namespace choreo {
 namespace {

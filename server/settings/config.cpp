@@ -12,19 +12,20 @@
 #include <regex>
 #include <string_view>
 
-#include "model/core/address.h"
 #include "model/core/error.h"
 #include "model/core/joined.h"
 #include "model/core/nearest.h"
 #include "model/core/programs.h"
 #include "model/engine/engine_choice.h"
 #include "model/plan/transition_spec.h"
+#include "network/address.h"
+#include "network/pem.h"
+#include "network/protocol.h"
 #include "server/connections/listener.h"
 #include "server/settings/config_errors.h"
 #include "server/settings/config_file.h"
 #include "server/settings/config_flags.h"
 #include "server/telemetry/log.h"
-#include "tls/pem.h"
 
 namespace choreo {
 namespace {

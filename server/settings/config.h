@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "model/core/limits.h"
+#include "network/protocol.h"
 
 namespace choreo {
 

@@ -5,7 +5,7 @@
 
 #include "model/core/error.h"
 #include "model/engine/engine_choice.h"
-#include "tls/pem.h"
+#include "network/pem.h"
 
 namespace choreo {
 namespace {

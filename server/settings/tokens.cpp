@@ -9,8 +9,8 @@
 #include <sstream>
 #include <utility>
 
+#include "network/pem.h"
 #include "server/messages/status.h"
-#include "tls/pem.h"
 
 namespace choreo {
 namespace {

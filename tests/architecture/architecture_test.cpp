@@ -23,8 +23,8 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
 const Includes& Sources() {
-  static const Includes includes(CHOREO_SOURCE_DIR,
-                                 {"model", "tls", "proto", "server", "client", "studio", "bench"});
+  static const Includes includes(
+      CHOREO_SOURCE_DIR, {"model", "network", "proto", "server", "client", "studio", "bench"});
   return includes;
 }
 
@@ -76,17 +76,20 @@ const std::vector<std::pair<std::string, std::set<std::string>>>& Modules() {
         {tables, {core, motion, draw, metrics, evaluation}},
         {"model/lab",
          {core, audio, engine, samplers, training, paper_training, evaluation, tables}},
-        {"tls", {core}},
+        {"network", {core}},
         {wire, {core, motion, messages, "choreo"}},
         {"server",
-         {core, audio, motion, plan, engine, samplers, messages, dance, "tls", wire, "choreo",
+         {core, audio, motion, plan, engine, samplers, messages, dance, "network", wire, "choreo",
           "google"}},
-        {"client", {core, motion, messages, "tls", wire, "choreo", "google", "grpc"}},
-        {live, {core, audio, motion, "client"}},
+        {"client", {core, motion, messages, "network", wire, "choreo", "google", "grpc"}},
+        {live, {core, audio, motion, "network", "client"}},
         {authoring, {core, audio, motion, fit, body, formats, "client"}},
         {"studio",
-         {core, audio, motion, formats, messages, wire, "client", authoring, live, "choreo"}},
-        {cli, {core, audio, motion, fit, body, formats, draw, "client", live, authoring, "studio"}},
+         {core, audio, motion, formats, messages, "network", wire, "client", authoring, live,
+          "choreo"}},
+        {cli,
+         {core, audio, motion, fit, body, formats, draw, "network", "client", live, authoring,
+          "studio"}},
         {"bench",
          {core, audio, motion, formats, flow, engine, networks, paper_samplers, samplers, dance,
           plan, metrics, "server", "client", live, authoring, cli, "choreo"}},
@@ -485,7 +488,7 @@ TEST(Architecture, NobodyReadsAFingerprint) {
 TEST(Architecture, HeadersOfTheInstalledClientAreComplete) {
   std::ifstream rules(std::filesystem::path(CHOREO_SOURCE_DIR) / "cmake/ChoreoInstall.cmake");
   const std::string text{std::istreambuf_iterator<char>(rules), {}};
-  const std::regex header(R"((client|model)/[a-z_/]+\.h)");
+  const std::regex header(R"((client|model|network)/[a-z_/]+\.h)");
   std::set<std::string> installed;
   for (std::sregex_iterator at(text.begin(), text.end(), header), end; at != end; ++at)
     installed.insert(at->str());

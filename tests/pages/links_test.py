@@ -34,7 +34,7 @@ class PagesTest(unittest.TestCase):
     def test_files_in_code_exist(self):
         """`model/dance/validation` and the like: files, folders, or a header with its source."""
         for page in pages():
-            for name in re.findall(r"`((?:bench|client|docker|docs|examples|model|proto|scripts|server|studio|tests|tls)/[\w./]+)`", (ROOT / page).read_text()):
+            for name in re.findall(r"`((?:bench|client|docker|docs|examples|model|proto|scripts|server|network|studio|tests)/[\w./]+)`", (ROOT / page).read_text()):
                 with self.subTest(page=page, name=name):
                     self.assertTrue(any((ROOT / (name + end)).exists() for end in ("", ".h", ".cpp", ".sh", ".py")), "there is no such file")
 

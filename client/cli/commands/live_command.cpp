@@ -28,6 +28,7 @@
 #include "model/core/rounded.h"
 #include "model/formats/motion_file.h"
 #include "model/motion/resample.h"
+#include "network/protocol.h"
 
 namespace choreo::cli {
 namespace {

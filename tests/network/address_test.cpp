@@ -1,4 +1,5 @@
-#include "model/core/address.h"
+#include "network/address.h"
+#include "network/protocol.h"
 
 #include <gtest/gtest.h>
 

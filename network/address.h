@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "model/core/limits.h"
+#include "network/protocol.h"
 
 namespace choreo {
 

@@ -1,4 +1,4 @@
-#include "tls/pem.h"
+#include "network/pem.h"
 
 #include <fcntl.h>
 #include <openssl/err.h>
