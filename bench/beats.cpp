@@ -26,8 +26,8 @@
 #include "model/audio/decode/decode.h"
 #include "model/audio/music/made_song.h"
 #include "model/core/grid.h"
-#include "model/dance/beat_schedule.h"
-#include "model/dance/dance_music.h"
+#include "model/dance/delivery/beat_schedule.h"
+#include "model/dance/input/dance_music.h"
 #include "model/metrics/song_beats.h"
 
 namespace choreo::bench {

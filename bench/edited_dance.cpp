@@ -8,7 +8,7 @@
 #include <variant>
 #include <vector>
 
-#include "client/authoring/pose_library.h"
+#include "client/authoring/keys/pose_library.h"
 #include "model/core/error.h"
 #include "model/core/grid.h"
 

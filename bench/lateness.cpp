@@ -6,7 +6,7 @@
 #include <random>
 #include <thread>
 
-#include "client/authoring/pose_library.h"
+#include "client/authoring/keys/pose_library.h"
 #include "model/core/error.h"
 
 namespace choreo::bench {

@@ -3,9 +3,9 @@
 #include <filesystem>
 #include <utility>
 
-#include "client/authoring/choreography.h"
-#include "client/authoring/photo_pose.h"
-#include "client/authoring/pose_library.h"
+#include "client/authoring/keys/choreography.h"
+#include "client/authoring/keys/photo_pose.h"
+#include "client/authoring/keys/pose_library.h"
 #include "client/convert.h"
 #include "model/core/atomic_file.h"
 #include "model/formats/motion_file.h"

@@ -3,9 +3,9 @@
 #include <filesystem>
 #include <utility>
 
-#include "client/authoring/formation.h"
+#include "client/authoring/project/formation.h"
 #include "model/core/atomic_file.h"
-#include "model/formats/gltf.h"
+#include "model/formats/gltf/gltf.h"
 #include "model/formats/motion_file.h"
 #include "studio/from_page.h"
 #include "studio/page_project.h"

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "client/authoring/counts.h"
+#include "client/authoring/fields/counts.h"
 #include "client/choreo_client.h"
 #include "client/edit.h"
 #include "client/live/beat_ear.h"

@@ -6,9 +6,9 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
-#include "client/authoring/json_fields.h"
-#include "client/authoring/key_faults.h"
-#include "client/authoring/key_file.h"
+#include "client/authoring/fields/json_fields.h"
+#include "client/authoring/keys/key_faults.h"
+#include "client/authoring/keys/key_file.h"
 #include "client/convert.h"
 #include "model/core/field.h"
 #include "model/core/limits.h"

@@ -1,10 +1,10 @@
 #pragma once
 
-#include "client/authoring/project_file.h"
+#include "client/authoring/project/project_file.h"
 #include "studio/studio_context.h"
 
-/// Projects as the page's messages. The page has no parser: client/authoring/project_file.h reads
-/// and writes the files. Floats stay equal in both directions.
+/// Projects as the page's messages. The page has no parser: client/authoring/project/project_file.h
+/// reads and writes the files. Floats stay equal in both directions.
 namespace choreo::studio {
 
 inline constexpr const char* kUnnamed = "project";  ///< the name of input in errors

@@ -6,7 +6,7 @@
 #include <type_traits>
 #include <utility>
 
-#include "client/authoring/key_faults.h"
+#include "client/authoring/keys/key_faults.h"
 #include "client/convert.h"
 #include "studio/answers.h"
 #include "studio/company.h"

@@ -10,13 +10,13 @@
 #include <utility>
 #include <vector>
 
-#include "client/authoring/json_fields.h"
-#include "client/authoring/key_faults.h"
-#include "client/authoring/key_file.h"
-#include "client/authoring/notes.h"
-#include "client/authoring/project_file.h"
+#include "client/authoring/fields/json_fields.h"
+#include "client/authoring/fields/notes.h"
+#include "client/authoring/keys/key_faults.h"
+#include "client/authoring/keys/key_file.h"
+#include "client/authoring/project/project_file.h"
 #include "model/core/rounded.h"
-#include "model/formats/bvh.h"
+#include "model/formats/bvh/bvh.h"
 #include "model/formats/motion_file.h"
 #include "studio/page_project.h"
 #include "studio/project_dance.h"

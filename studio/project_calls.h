@@ -10,10 +10,10 @@
 namespace choreo::studio {
 
 /// Calls of other programs over plain HTTP, in JSON (docs/programs.md): GET /model returns the
-/// model; POST /dance takes a project (client/authoring/project_file.h) and returns its dance;
-/// /dance?as=bvh returns a BVH file. Metres, axis-angle. A project contains its song, `song_data`
-/// in base64; without one the dance is silent, `seconds` long. Failures are {"error": "..."},
-/// naming field, value and limit.
+/// model; POST /dance takes a project (client/authoring/project/project_file.h) and returns its
+/// dance; /dance?as=bvh returns a BVH file. Metres, axis-angle. A project contains its song,
+/// `song_data` in base64; without one the dance is silent, `seconds` long. Failures are {"error":
+/// "..."}, naming field, value and limit.
 class ProjectCalls {
  public:
   struct Reply {

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "client/arrange.h"
-#include "client/authoring/key_faults.h"
-#include "client/authoring/key_file.h"
+#include "client/authoring/keys/key_faults.h"
+#include "client/authoring/keys/key_file.h"
 #include "client/convert.h"
 #include "client/edit.h"
 #include "model/core/error.h"

@@ -2,9 +2,9 @@
 
 #include <string>
 
-#include "client/authoring/dance_keys.h"
-#include "client/authoring/project_file.h"
-#include "client/authoring/written_controls.h"
+#include "client/authoring/controls/written_controls.h"
+#include "client/authoring/keys/dance_keys.h"
+#include "client/authoring/project/project_file.h"
 #include "studio/studio_context.h"
 
 namespace choreo::studio {

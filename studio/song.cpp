@@ -4,8 +4,8 @@
 #include <cmath>
 #include <optional>
 
-#include "client/authoring/notes.h"
-#include "client/authoring/proposed_keys.h"
+#include "client/authoring/fields/notes.h"
+#include "client/authoring/keys/proposed_keys.h"
 #include "model/core/rounded.h"
 
 namespace choreo::studio {

@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <string>
 
-#include "client/authoring/music.h"
+#include "client/authoring/music/music.h"
 #include "studio/studio.pb.h"
 
 namespace choreo::studio {

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "client/authoring/dancers.h"
-#include "client/authoring/key_file.h"
-#include "client/authoring/pose_library.h"
+#include "client/authoring/keys/key_file.h"
+#include "client/authoring/keys/pose_library.h"
+#include "client/authoring/project/dancers.h"
 #include "client/convert.h"
 #include "client/describe_styles.h"
 #include "model/audio/beats/beat_hint.h"

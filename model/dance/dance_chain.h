@@ -9,12 +9,12 @@
 #include <span>
 
 #include "model/core/error.h"
-#include "model/dance/audio_feed.h"
-#include "model/dance/dance_reporter.h"
-#include "model/dance/dance_score.h"
-#include "model/dance/dance_sink.h"
-#include "model/dance/dance_start.h"
-#include "model/dance/delivery.h"
+#include "model/dance/delivery/dance_reporter.h"
+#include "model/dance/delivery/dance_sink.h"
+#include "model/dance/delivery/delivery.h"
+#include "model/dance/input/audio_feed.h"
+#include "model/dance/input/dance_start.h"
+#include "model/dance/transition/dance_score.h"
 
 namespace choreo {
 

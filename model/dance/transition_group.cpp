@@ -8,11 +8,11 @@
 #include <utility>
 
 #include "model/core/error.h"
-#include "model/dance/dance_meter.h"
-#include "model/dance/dance_music.h"
-#include "model/dance/delivery.h"
-#include "model/dance/recurrence.h"
-#include "model/dance/transition.h"
+#include "model/dance/delivery/dance_meter.h"
+#include "model/dance/delivery/delivery.h"
+#include "model/dance/input/dance_music.h"
+#include "model/dance/input/recurrence.h"
+#include "model/dance/transition/transition.h"
 
 namespace choreo {
 

@@ -5,9 +5,9 @@
 #include <span>
 #include <vector>
 
-#include "model/dance/dance_start.h"
-#include "model/dance/quality_meter.h"
-#include "model/dance/warning.h"
+#include "model/dance/delivery/quality_meter.h"
+#include "model/dance/input/dance_start.h"
+#include "model/dance/timeline/warning.h"
 #include "model/engine/sample_queue.h"
 
 namespace choreo {

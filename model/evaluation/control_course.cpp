@@ -1,7 +1,7 @@
 #include "model/evaluation/control_course.h"
 
 #include "model/dance/controls/control_track.h"
-#include "model/dance/quality_meter.h"
+#include "model/dance/delivery/quality_meter.h"
 #include "model/metrics/control_figures.h"
 #include "model/metrics/joint_track.h"
 #include "model/motion/resample.h"

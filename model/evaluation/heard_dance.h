@@ -3,8 +3,8 @@
 #include <span>
 #include <vector>
 
-#include "model/dance/dance_start.h"
-#include "model/dance/timeline.h"
+#include "model/dance/input/dance_start.h"
+#include "model/dance/timeline/timeline.h"
 #include "model/engine/sample_queue.h"
 
 namespace choreo {

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "model/dance/quality_meter.h"
+#include "model/dance/delivery/quality_meter.h"
 #include "model/evaluation/beat_table.h"
 #include "model/metrics/contrast.h"
 #include "model/motion/canonical.h"

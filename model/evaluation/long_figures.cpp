@@ -5,7 +5,7 @@
 #include <numeric>
 
 #include "model/core/grid.h"
-#include "model/dance/quality_meter.h"
+#include "model/dance/delivery/quality_meter.h"
 #include "model/motion/rotation.h"
 
 namespace choreo {

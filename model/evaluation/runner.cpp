@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "model/dance/timeline.h"
+#include "model/dance/timeline/timeline.h"
 
 namespace choreo {
 namespace {

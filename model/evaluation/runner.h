@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "model/dance/transition.h"
+#include "model/dance/transition/transition.h"
 
 namespace choreo {
 

@@ -3,7 +3,7 @@
 #include <cstdio>
 #include <optional>
 
-#include "model/dance/quality_meter.h"
+#include "model/dance/delivery/quality_meter.h"
 #include "model/evaluation/evaluation.h"
 #include "model/evaluation/long_figures.h"
 #include "model/evaluation/transition_judge.h"

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "model/dance/quality_meter.h"
+#include "model/dance/delivery/quality_meter.h"
 #include "model/metrics/frechet.h"
 #include "model/metrics/groove.h"
 #include "model/metrics/linear.h"

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "model/dance/transition.h"
+#include "model/dance/transition/transition.h"
 #include "model/training/prepared_clip.h"
 
 namespace choreo {

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "model/formats/motion_reading.h"
-#include "model/formats/own_arrays.h"
+#include "model/formats/arrays/own_arrays.h"
+#include "model/formats/reading/motion_reading.h"
 #include "model/motion/contacts.h"
 #include "model/motion/motion.h"
 #include "model/motion/skeleton.h"

@@ -6,8 +6,8 @@
 
 #include "model/core/atomic_file.h"
 #include "model/core/error.h"
-#include "model/formats/amass_npz.h"
-#include "model/formats/pickle.h"
+#include "model/formats/arrays/amass_npz.h"
+#include "model/formats/containers/pickle.h"
 #include "model/training/recordings.h"
 
 namespace choreo {

@@ -6,8 +6,8 @@
 #include "model/core/error.h"
 #include "model/fit/bone_normaliser.h"
 #include "model/fit/tang2018_skeleton.h"
-#include "model/formats/amass_npz.h"
-#include "model/formats/bvh.h"
+#include "model/formats/arrays/amass_npz.h"
+#include "model/formats/bvh/bvh.h"
 
 namespace choreo {
 namespace {

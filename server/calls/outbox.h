@@ -12,7 +12,7 @@
 #include <optional>
 #include <utility>
 
-#include "model/dance/pacer.h"
+#include "model/dance/delivery/pacer.h"
 #include "server/calls/call_registry.h"
 
 namespace choreo {

@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "model/audio/signal/format.h"
-#include "model/dance/timeline.h"
-#include "model/dance/validation.h"
+#include "model/dance/timeline/timeline.h"
+#include "model/dance/timeline/validation.h"
 #include "proto/wire/convert.h"
 #include "server/calls/describe_model.h"
 #include "server/calls/stream_reactor.h"

@@ -8,8 +8,8 @@
 #include "model/core/grid.h"
 #include "model/core/random.h"
 #include "model/core/threads.h"
-#include "model/dance/audio_feed.h"
-#include "model/dance/dance_music.h"
+#include "model/dance/input/audio_feed.h"
+#include "model/dance/input/dance_music.h"
 
 namespace choreo {
 namespace {

@@ -7,7 +7,7 @@
 #include "model/audio/signal/pcm.h"
 #include "model/core/error.h"
 #include "model/core/joined.h"
-#include "model/dance/validation.h"
+#include "model/dance/timeline/validation.h"
 #include "proto/wire/continuation_message.h"
 #include "proto/wire/control_messages.h"
 #include "proto/wire/convert.h"

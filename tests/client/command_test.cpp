@@ -9,8 +9,8 @@
 #include <set>
 #include <sstream>
 
-#include "client/authoring/key_file.h"
-#include "client/authoring/pose_library.h"
+#include "client/authoring/keys/key_file.h"
+#include "client/authoring/keys/pose_library.h"
 #include "model/core/atomic_file.h"
 #include "model/core/npy.h"
 #include "model/formats/motion_file.h"

@@ -11,7 +11,7 @@
 #include <optional>
 #include <thread>
 
-#include "client/authoring/pose_library.h"
+#include "client/authoring/keys/pose_library.h"
 #include "client/choreo_client.h"
 #include "model/motion/kinematics.h"
 #include "tests/client/test_music.h"

@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include "model/formats/containers/npz.h"
 #include "model/formats/motion_file.h"
-#include "model/formats/npz.h"
 #include "model/motion/kinematics.h"
 #include "tests/client/command_fixture.h"
 #include "tests/client/test_music.h"

@@ -3,7 +3,7 @@
 
 #include <fstream>
 
-#include "client/authoring/pose_library.h"
+#include "client/authoring/keys/pose_library.h"
 #include "model/core/atomic_file.h"
 #include "tests/client/edit_fixture.h"
 

@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "client/authoring/pose_library.h"
+#include "client/authoring/keys/pose_library.h"
 #include "client/edit.h"
 #include "tests/client/command_fixture.h"
 #include "tests/client/test_music.h"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <fstream>
 
-#include "client/authoring/pose_library.h"
+#include "client/authoring/keys/pose_library.h"
 #include "model/motion/canonical.h"
 #include "tests/client/edit_fixture.h"
 

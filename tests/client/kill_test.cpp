@@ -14,8 +14,8 @@
 #include <thread>
 #include <vector>
 
+#include "client/authoring/keys/pose_library.h"
 #include "client/authoring/local_server.h"
-#include "client/authoring/pose_library.h"
 #include "client/choreo_client.h"
 #include "tests/client/test_music.h"
 #include "tests/client/test_server.h"

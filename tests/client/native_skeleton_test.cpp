@@ -4,8 +4,8 @@
 #include <fstream>
 #include <memory>
 
-#include "client/authoring/choreography.h"
-#include "client/authoring/pose_library.h"
+#include "client/authoring/keys/choreography.h"
+#include "client/authoring/keys/pose_library.h"
 #include "client/choreo_client.h"
 #include "model/formats/motion_file.h"
 #include "model/motion/kinematics.h"

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <memory>
 
+#include "client/authoring/keys/pose_library.h"
 #include "client/authoring/local_server.h"
-#include "client/authoring/pose_library.h"
 #include "client/choreo_client.h"
 #include "model/metrics/control_figures.h"
 #include "model/motion/kinematics.h"

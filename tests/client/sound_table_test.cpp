@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "client/authoring/decode_song.h"
+#include "client/authoring/music/decode_song.h"
 #include "model/core/atomic_file.h"
 #include "model/core/error.h"
 #include "tests/support/expect_error.h"

@@ -7,11 +7,11 @@
 #include <filesystem>
 #include <fstream>
 
-#include "client/authoring/project_file.h"
+#include "client/authoring/project/project_file.h"
 #include "client/cli/options/authoring_options.h"
 #include "client/cli/report/report_controls.h"
 #include "model/dance/controls/control_track.h"
-#include "model/dance/dance_score.h"
+#include "model/dance/transition/dance_score.h"
 #include "model/flow/window_features.h"
 #include "proto/wire/control_messages.h"
 #include "tests/flow/flow_scene.h"

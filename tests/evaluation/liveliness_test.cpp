@@ -5,7 +5,7 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
-#include "model/dance/quality_meter.h"
+#include "model/dance/delivery/quality_meter.h"
 #include "model/evaluation/interpolation_sampler.h"
 #include "model/evaluation/liveliness_figures.h"
 #include "model/evaluation/long_plans.h"

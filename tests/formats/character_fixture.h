@@ -6,8 +6,8 @@
 #include <numbers>
 
 #include "model/fit/transfer.h"
-#include "model/formats/character_file.h"
-#include "model/formats/gltf_scene.h"
+#include "model/formats/gltf/character_file.h"
+#include "model/formats/gltf/gltf_scene.h"
 #include "model/motion/kinematics.h"
 #include "tests/motion/motion_fixtures.h"
 #include "tests/support/character_rigs.h"

@@ -2,7 +2,7 @@
 
 #include <fstream>
 
-#include "model/formats/gltf.h"
+#include "model/formats/gltf/gltf.h"
 #include "tests/formats/character_fixture.h"
 #include "tests/support/expect_error.h"
 #include "tests/support/shell.h"

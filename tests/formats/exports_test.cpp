@@ -6,8 +6,8 @@
 
 #include "model/body/skin.h"
 #include "model/fit/human_bones.h"
-#include "model/formats/amass_npz.h"
-#include "model/formats/gltf.h"
+#include "model/formats/arrays/amass_npz.h"
+#include "model/formats/gltf/gltf.h"
 #include "model/formats/motion_file.h"
 #include "tests/formats/numpy.h"
 #include "tests/motion/motion_fixtures.h"

@@ -5,8 +5,8 @@
 #include <fstream>
 
 #include "model/core/atomic_file.h"
-#include "model/formats/bvh.h"
-#include "model/formats/npz.h"
+#include "model/formats/bvh/bvh.h"
+#include "model/formats/containers/npz.h"
 #include "model/motion/kinematics.h"
 #include "tests/motion/motion_fixtures.h"
 #include "tests/support/expect_error.h"

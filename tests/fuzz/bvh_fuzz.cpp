@@ -1,4 +1,4 @@
-#include "model/formats/bvh.h"
+#include "model/formats/bvh/bvh.h"
 #include "tests/fuzz/fuzz.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {

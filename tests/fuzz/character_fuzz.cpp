@@ -1,6 +1,6 @@
 #include "model/fit/guess_bones.h"
 #include "model/fit/transfer.h"
-#include "model/formats/character_file.h"
+#include "model/formats/gltf/character_file.h"
 #include "model/motion/kinematics.h"
 #include "tests/fuzz/fuzz.h"
 #include "tests/fuzz/input_file.h"

@@ -1,4 +1,4 @@
-#include "client/authoring/dancers.h"
+#include "client/authoring/project/dancers.h"
 #include "tests/fuzz/fuzz.h"
 #include "tests/fuzz/input_file.h"
 

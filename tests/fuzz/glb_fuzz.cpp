@@ -1,5 +1,5 @@
-#include "model/formats/gltf.h"
-#include "model/formats/gltf_scene.h"
+#include "model/formats/gltf/gltf.h"
+#include "model/formats/gltf/gltf_scene.h"
 #include "tests/fuzz/fuzz.h"
 #include "tests/fuzz/input_file.h"
 

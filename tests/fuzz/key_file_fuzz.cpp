@@ -1,5 +1,5 @@
-#include "client/authoring/key_file.h"
-#include "client/authoring/pose_file.h"
+#include "client/authoring/keys/key_file.h"
+#include "client/authoring/keys/pose_file.h"
 #include "tests/fuzz/fuzz.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {

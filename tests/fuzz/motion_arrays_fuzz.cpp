@@ -3,8 +3,8 @@
 #include <cstring>
 #include <string>
 
-#include "model/formats/amass_npz.h"
-#include "model/formats/own_arrays.h"
+#include "model/formats/arrays/amass_npz.h"
+#include "model/formats/arrays/own_arrays.h"
 #include "tests/fuzz/fuzz.h"
 
 namespace choreo {

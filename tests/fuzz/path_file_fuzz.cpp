@@ -1,4 +1,4 @@
-#include "client/authoring/written_controls.h"
+#include "client/authoring/controls/written_controls.h"
 #include "tests/fuzz/fuzz.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {

@@ -1,4 +1,4 @@
-#include "model/formats/pickle.h"
+#include "model/formats/containers/pickle.h"
 #include "tests/fuzz/fuzz.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {

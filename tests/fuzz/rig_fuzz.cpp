@@ -1,4 +1,4 @@
-#include "model/formats/bvh.h"
+#include "model/formats/bvh/bvh.h"
 #include "model/formats/motion_file.h"
 #include "tests/fuzz/fuzz.h"
 #include "tests/fuzz/input_file.h"

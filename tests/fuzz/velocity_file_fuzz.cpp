@@ -1,4 +1,4 @@
-#include "client/authoring/velocities.h"
+#include "client/authoring/controls/velocities.h"
 #include "tests/fuzz/fuzz.h"
 #include "tests/fuzz/input_file.h"
 

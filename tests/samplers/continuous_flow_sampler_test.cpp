@@ -4,7 +4,7 @@
 #include "bench/random_checkpoints.h"
 #include "model/core/error.h"
 #include "model/core/safetensors.h"
-#include "model/dance/transition.h"
+#include "model/dance/transition/transition.h"
 #include "model/engine/packed/kernels.h"
 #include "model/flow/flow_sampler.h"
 #include "model/motion/kinematics.h"

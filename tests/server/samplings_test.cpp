@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <iostream>
 
-#include "client/authoring/pose_library.h"
+#include "client/authoring/keys/pose_library.h"
 #include "model/core/threads.h"
-#include "model/dance/transition.h"
+#include "model/dance/transition/transition.h"
 #include "model/plan/takes.h"
 #include "model/samplers/samplers.h"
 

@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "client/authoring/key_file.h"
+#include "client/authoring/keys/key_file.h"
 #include "client/convert.h"
 #include "client/edit.h"
 #include "model/motion/kinematics.h"

@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "client/authoring/dance_keys.h"
-#include "client/authoring/key_file.h"
-#include "client/authoring/photo_pose.h"
-#include "client/authoring/project_file.h"
-#include "client/authoring/proposed_keys.h"
+#include "client/authoring/keys/dance_keys.h"
+#include "client/authoring/keys/key_file.h"
+#include "client/authoring/keys/photo_pose.h"
+#include "client/authoring/keys/proposed_keys.h"
+#include "client/authoring/project/project_file.h"
 #include "client/convert.h"
 #include "model/audio/music/made_song.h"
 #include "proto/wire/control_messages.h"

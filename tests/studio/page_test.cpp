@@ -6,7 +6,7 @@
 #include <optional>
 #include <thread>
 
-#include "client/authoring/pose_library.h"
+#include "client/authoring/keys/pose_library.h"
 #include "studio/page.h"
 #include "tests/studio/opened_studio.h"
 #include "tests/support/expect_error.h"

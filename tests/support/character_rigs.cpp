@@ -5,7 +5,7 @@
 #include <random>
 
 #include "model/fit/human_bones.h"
-#include "model/formats/gltf.h"
+#include "model/formats/gltf/gltf.h"
 #include "model/motion/kinematics.h"
 #include "model/motion/rotation.h"
 #include "tests/support/glb_parts.h"

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "model/fit/human_bones.h"
-#include "model/formats/bvh.h"
+#include "model/formats/bvh/bvh.h"
 #include "model/motion/rotation.h"
 
 /// Rigs for tests, as other programs export them: a body in centimetres that at rest stands with

@@ -7,7 +7,7 @@
 #include "model/audio/music/feature_stream.h"
 #include "model/audio/signal/mfcc.h"
 #include "model/fit/fit_clip.h"
-#include "model/formats/amass_npz.h"
+#include "model/formats/arrays/amass_npz.h"
 #include "model/motion/kinematics.h"
 #include "model/motion/resample.h"
 #include "model/training/clip_split.h"

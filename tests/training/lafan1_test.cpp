@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "model/fit/fit_clip.h"
-#include "model/formats/bvh.h"
+#include "model/formats/bvh/bvh.h"
 #include "model/motion/kinematics.h"
 #include "model/motion/rotation.h"
 #include "tests/support/expect_error.h"

@@ -4,8 +4,8 @@
 #include <map>
 
 #include "model/core/error.h"
-#include "model/formats/amass_npz.h"
-#include "model/formats/bvh.h"
+#include "model/formats/arrays/amass_npz.h"
+#include "model/formats/bvh/bvh.h"
 #include "model/motion/kinematics.h"
 #include "tests/support/synthetic_clips.h"
 #include "tests/training/preparation.h"

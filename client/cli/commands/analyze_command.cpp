@@ -6,8 +6,8 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "client/authoring/music.h"
-#include "client/authoring/proposed_keys.h"
+#include "client/authoring/keys/proposed_keys.h"
+#include "client/authoring/music/music.h"
 #include "client/cli/commands/commands.h"
 #include "client/cli/options/authoring_options.h"
 #include "client/cli/options/options.h"

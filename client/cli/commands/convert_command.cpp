@@ -4,7 +4,7 @@
 #include <string>
 #include <utility>
 
-#include "client/authoring/motion_input.h"
+#include "client/authoring/keys/motion_input.h"
 #include "client/cli/commands/commands.h"
 #include "client/cli/options/bone_map.h"
 #include "client/cli/options/bvh_options.h"
@@ -13,10 +13,10 @@
 #include "client/cli/options/output_file.h"
 #include "model/core/error.h"
 #include "model/fit/retarget.h"
-#include "model/formats/gltf.h"
+#include "model/formats/arrays/own_arrays.h"
+#include "model/formats/gltf/gltf.h"
 #include "model/formats/motion_file.h"
-#include "model/formats/own_arrays.h"
-#include "model/formats/root_motion.h"
+#include "model/formats/reading/root_motion.h"
 #include "model/motion/contacts.h"
 #include "model/motion/resample.h"
 

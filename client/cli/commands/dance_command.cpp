@@ -4,10 +4,10 @@
 #include <limits>
 #include <memory>
 
-#include "client/authoring/dancers.h"
-#include "client/authoring/json_fields.h"
-#include "client/authoring/key_file.h"
-#include "client/authoring/project_file.h"
+#include "client/authoring/fields/json_fields.h"
+#include "client/authoring/keys/key_file.h"
+#include "client/authoring/project/dancers.h"
+#include "client/authoring/project/project_file.h"
 #include "client/cli/commands/commands.h"
 #include "client/cli/dance/dance_performance.h"
 #include "client/cli/dance/stage_dance.h"

@@ -1,7 +1,7 @@
 #include <memory>
 
-#include "client/authoring/counts.h"
-#include "client/authoring/key_file.h"
+#include "client/authoring/fields/counts.h"
+#include "client/authoring/keys/key_file.h"
 #include "client/cli/commands/commands.h"
 #include "client/cli/edit/edit_markers.h"
 #include "client/cli/edit/edit_whole.h"

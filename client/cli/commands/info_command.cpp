@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "client/authoring/pose_library.h"
+#include "client/authoring/keys/pose_library.h"
 #include "client/cli/commands/commands.h"
 #include "client/cli/options/connection.h"
 #include "client/describe_styles.h"

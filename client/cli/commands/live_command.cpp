@@ -8,10 +8,10 @@
 #include <optional>
 #include <sstream>
 
-#include "client/authoring/dance_keys.h"
-#include "client/authoring/key_file.h"
-#include "client/authoring/music.h"
-#include "client/authoring/pose_library.h"
+#include "client/authoring/keys/dance_keys.h"
+#include "client/authoring/keys/key_file.h"
+#include "client/authoring/keys/pose_library.h"
+#include "client/authoring/music/music.h"
 #include "client/cli/commands/commands.h"
 #include "client/cli/dance/live_report.h"
 #include "client/cli/options/authoring_options.h"

@@ -4,11 +4,11 @@
 #include <limits>
 #include <memory>
 
-#include "client/authoring/counts.h"
-#include "client/authoring/json_fields.h"
-#include "client/authoring/motion_input.h"
-#include "client/authoring/music.h"
-#include "client/authoring/written_controls.h"
+#include "client/authoring/controls/written_controls.h"
+#include "client/authoring/fields/counts.h"
+#include "client/authoring/fields/json_fields.h"
+#include "client/authoring/keys/motion_input.h"
+#include "client/authoring/music/music.h"
 #include "client/cli/commands/commands.h"
 #include "client/cli/options/authoring_options.h"
 #include "client/cli/options/options.h"

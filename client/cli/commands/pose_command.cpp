@@ -5,10 +5,10 @@
 #include <iostream>
 #include <memory>
 
-#include "client/authoring/key_faults.h"
-#include "client/authoring/key_file.h"
-#include "client/authoring/pose_file.h"
-#include "client/authoring/pose_library.h"
+#include "client/authoring/keys/key_faults.h"
+#include "client/authoring/keys/key_file.h"
+#include "client/authoring/keys/pose_file.h"
+#include "client/authoring/keys/pose_library.h"
 #include "client/cli/commands/commands.h"
 #include "client/cli/commands/pose_recipe.h"
 #include "client/cli/options/options.h"

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <utility>
 
-#include "client/authoring/photo_pose.h"
+#include "client/authoring/keys/photo_pose.h"
 #include "client/cli/options/placing_options.h"
 #include "model/body/doll.h"
 #include "model/core/error.h"

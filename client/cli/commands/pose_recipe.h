@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "client/authoring/placing.h"
-#include "client/authoring/pose_source.h"
+#include "client/authoring/keys/placing.h"
+#include "client/authoring/keys/pose_source.h"
 #include "client/choreo_client.h"
 
 namespace choreo::cli {

@@ -7,9 +7,9 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "client/authoring/counts.h"
-#include "client/authoring/motion_input.h"
-#include "client/authoring/music.h"
+#include "client/authoring/fields/counts.h"
+#include "client/authoring/keys/motion_input.h"
+#include "client/authoring/music/music.h"
 #include "client/cli/commands/commands.h"
 #include "client/cli/options/interruption.h"
 #include "client/cli/options/options.h"

@@ -4,10 +4,10 @@
 #include <limits>
 #include <memory>
 
-#include "client/authoring/key_file.h"
-#include "client/authoring/music.h"
-#include "client/authoring/pose_source.h"
-#include "client/authoring/written_controls.h"
+#include "client/authoring/controls/written_controls.h"
+#include "client/authoring/keys/key_file.h"
+#include "client/authoring/keys/pose_source.h"
+#include "client/authoring/music/music.h"
 #include "client/cli/commands/commands.h"
 #include "client/cli/options/authoring_options.h"
 #include "client/cli/options/connection.h"

@@ -7,14 +7,14 @@
 #include <sstream>
 #include <utility>
 
-#include "client/authoring/choreography.h"
-#include "client/authoring/dance_keys.h"
-#include "client/authoring/ending.h"
-#include "client/authoring/formation.h"
-#include "client/authoring/json_fields.h"
-#include "client/authoring/key_faults.h"
-#include "client/authoring/key_file.h"
-#include "client/authoring/pose_source.h"
+#include "client/authoring/fields/json_fields.h"
+#include "client/authoring/keys/choreography.h"
+#include "client/authoring/keys/dance_keys.h"
+#include "client/authoring/keys/ending.h"
+#include "client/authoring/keys/key_faults.h"
+#include "client/authoring/keys/key_file.h"
+#include "client/authoring/keys/pose_source.h"
+#include "client/authoring/project/formation.h"
 #include "client/cli/dance/dance_display.h"
 #include "client/cli/options/interruption.h"
 #include "client/cli/options/options.h"

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "client/authoring/dance_keys.h"
-#include "client/authoring/music.h"
-#include "client/authoring/written_controls.h"
+#include "client/authoring/controls/written_controls.h"
+#include "client/authoring/keys/dance_keys.h"
+#include "client/authoring/music/music.h"
 #include "client/cli/dance/vmc_show.h"
 #include "client/cli/options/bvh_options.h"
 #include "client/cli/options/connection.h"

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "client/authoring/dance_keys.h"
+#include "client/authoring/keys/dance_keys.h"
 #include "client/cli/report/written_dance.h"
 #include "client/live/live_dance.h"
 

@@ -6,12 +6,12 @@
 #include <iostream>
 #include <utility>
 
-#include "client/authoring/formation.h"
+#include "client/authoring/project/formation.h"
 #include "client/cli/report/report.h"
 #include "client/cli/report/report_controls.h"
 #include "model/core/atomic_file.h"
 #include "model/core/rounded.h"
-#include "model/formats/gltf.h"
+#include "model/formats/gltf/gltf.h"
 #include "model/formats/motion_file.h"
 #include "model/motion/rotation.h"
 

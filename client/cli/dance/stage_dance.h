@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "client/authoring/dancers.h"
+#include "client/authoring/project/dancers.h"
 #include "client/cli/dance/dance_performance.h"
 
 /// Dances for several dancers on one stage. Generates each different dance once, from the origin,

@@ -6,11 +6,11 @@
 #include <map>
 #include <utility>
 
-#include "client/authoring/ending.h"
-#include "client/authoring/key_faults.h"
-#include "client/authoring/key_file.h"
-#include "client/authoring/pose_library.h"
-#include "client/authoring/pose_source.h"
+#include "client/authoring/keys/ending.h"
+#include "client/authoring/keys/key_faults.h"
+#include "client/authoring/keys/key_file.h"
+#include "client/authoring/keys/pose_library.h"
+#include "client/authoring/keys/pose_source.h"
 #include "client/cli/edit/edits.h"
 #include "client/cli/edit/key_room.h"
 

@@ -5,10 +5,10 @@
 #include <iostream>
 #include <limits>
 
-#include "client/authoring/counts.h"
-#include "client/authoring/json_fields.h"
-#include "client/authoring/music.h"
-#include "client/authoring/project_file.h"
+#include "client/authoring/fields/counts.h"
+#include "client/authoring/fields/json_fields.h"
+#include "client/authoring/music/music.h"
+#include "client/authoring/project/project_file.h"
 #include "model/core/atomic_file.h"
 #include "model/core/error.h"
 #include "model/core/grid.h"

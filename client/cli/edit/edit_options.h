@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
-#include "client/authoring/music.h"
-#include "client/authoring/placing.h"
-#include "client/authoring/written_controls.h"
+#include "client/authoring/controls/written_controls.h"
+#include "client/authoring/keys/placing.h"
+#include "client/authoring/music/music.h"
 #include "client/cli/options/connection.h"
 #include "client/cli/report/dance_settings.h"
 #include "client/cli/report/report_file.h"

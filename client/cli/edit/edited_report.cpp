@@ -6,7 +6,7 @@
 #include <optional>
 #include <sstream>
 
-#include "client/authoring/key_file.h"
+#include "client/authoring/keys/key_file.h"
 #include "model/core/limits.h"
 #include "model/core/rounded.h"
 

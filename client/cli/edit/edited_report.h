@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "client/authoring/counts.h"
+#include "client/authoring/fields/counts.h"
 #include "client/cli/edit/edit_options.h"
 #include "client/cli/report/report_file.h"
 #include "client/cli/report/time_format.h"

@@ -6,8 +6,8 @@
 #include <iterator>
 #include <set>
 
-#include "client/authoring/dance_keys.h"
-#include "client/authoring/key_file.h"
+#include "client/authoring/keys/dance_keys.h"
+#include "client/authoring/keys/key_file.h"
 #include "client/cli/report/report.h"
 #include "model/core/limits.h"
 #include "model/core/rounded.h"

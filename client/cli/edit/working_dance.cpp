@@ -4,7 +4,7 @@
 #include <tuple>
 #include <utility>
 
-#include "client/authoring/key_faults.h"
+#include "client/authoring/keys/key_faults.h"
 #include "client/cli/edit/key_room.h"
 #include "client/cli/report/dance_file.h"
 #include "client/cli/report/report.h"

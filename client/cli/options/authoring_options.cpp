@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "client/authoring/velocities.h"
+#include "client/authoring/controls/velocities.h"
 #include "client/cli/options/options.h"
 #include "model/core/rounded.h"
 #include "model/formats/motion_file.h"

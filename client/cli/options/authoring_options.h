@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "client/authoring/beat_options.h"
-#include "client/authoring/written_controls.h"
+#include "client/authoring/controls/written_controls.h"
+#include "client/authoring/music/beat_options.h"
 #include "client/cli/options/output_file.h"
 
 /// Command-line options for the inputs that client/authoring reads.

@@ -4,7 +4,7 @@
 #include <climits>
 #include <nlohmann/json.hpp>
 
-#include "client/authoring/json_fields.h"
+#include "client/authoring/fields/json_fields.h"
 #include "model/core/atomic_file.h"
 #include "model/core/error.h"
 #include "model/core/printable.h"

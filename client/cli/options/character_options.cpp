@@ -11,7 +11,7 @@
 #include "model/fit/finger_bones.h"
 #include "model/fit/retarget.h"
 #include "model/fit/transfer.h"
-#include "model/formats/character_file.h"
+#include "model/formats/gltf/character_file.h"
 #include "model/formats/motion_file.h"
 
 namespace choreo::cli {

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-#include "model/formats/root_motion.h"
+#include "model/formats/reading/root_motion.h"
 #include "model/motion/motion.h"
 #include "model/motion/skeleton.h"
 

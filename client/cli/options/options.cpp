@@ -7,8 +7,8 @@
 #include <map>
 #include <sstream>
 
-#include "client/authoring/counts.h"
-#include "client/authoring/json_fields.h"
+#include "client/authoring/fields/counts.h"
+#include "client/authoring/fields/json_fields.h"
 #include "client/cli/report/dance_settings.h"
 #include "model/core/hand_pose.h"
 #include "model/core/hit.h"

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "client/authoring/placing.h"
+#include "client/authoring/keys/placing.h"
 
 namespace choreo::cli {
 

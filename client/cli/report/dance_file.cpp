@@ -3,9 +3,9 @@
 #include <utility>
 #include <vector>
 
-#include "client/authoring/motion_input.h"
+#include "client/authoring/keys/motion_input.h"
 #include "model/core/error.h"
-#include "model/formats/npz.h"
+#include "model/formats/containers/npz.h"
 
 namespace choreo::cli {
 namespace {

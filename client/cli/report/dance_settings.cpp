@@ -3,7 +3,7 @@
 #include <cmath>
 #include <iostream>
 
-#include "client/authoring/json_fields.h"
+#include "client/authoring/fields/json_fields.h"
 #include "client/cli/report/report_controls.h"
 #include "model/audio/signal/format.h"
 #include "model/core/range.h"

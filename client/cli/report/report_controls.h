@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "client/authoring/control_json.h"
+#include "client/authoring/fields/control_json.h"
 #include "model/motion/control_request.h"
 #include "model/motion/controls.h"
 #include "model/motion/mirror.h"

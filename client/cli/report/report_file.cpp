@@ -10,8 +10,8 @@
 #include <stdexcept>
 #include <type_traits>
 
-#include "client/authoring/json_fields.h"
-#include "client/authoring/key_file.h"
+#include "client/authoring/fields/json_fields.h"
+#include "client/authoring/keys/key_file.h"
 #include "client/cli/report/report_controls.h"
 #include "model/core/error.h"
 #include "model/core/json_limits.h"

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "client/authoring/counts.h"
+#include "client/authoring/fields/counts.h"
 #include "client/cli/report/dance_settings.h"
 #include "client/cli/report/motion_sketch.h"
 #include "client/dance_messages.h"

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <string>
 
-#include "client/authoring/counts.h"
+#include "client/authoring/fields/counts.h"
 #include "model/core/grid.h"
 
 namespace choreo::cli {

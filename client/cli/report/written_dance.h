@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "client/authoring/dance_keys.h"
+#include "client/authoring/keys/dance_keys.h"
 #include "client/choreo_client.h"
 #include "client/cli/report/report_file.h"
 #include "model/core/grid.h"

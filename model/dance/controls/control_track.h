@@ -14,8 +14,8 @@
 #include "model/dance/controls/path_track.h"
 #include "model/dance/controls/track_frames.h"
 #include "model/dance/controls/velocity_track.h"
-#include "model/dance/spec_poses.h"
-#include "model/dance/warning.h"
+#include "model/dance/timeline/spec_poses.h"
+#include "model/dance/timeline/warning.h"
 
 namespace choreo {
 

@@ -7,8 +7,8 @@
 
 #include "model/dance/controls/path_validation.h"
 #include "model/dance/controls/track_frames.h"
-#include "model/dance/spec_poses.h"
-#include "model/dance/warning.h"
+#include "model/dance/timeline/spec_poses.h"
+#include "model/dance/timeline/warning.h"
 
 namespace choreo {
 

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "model/core/error.h"
-#include "model/dance/validation.h"
+#include "model/dance/timeline/validation.h"
 #include "model/motion/pose_limits.h"
 
 namespace choreo {

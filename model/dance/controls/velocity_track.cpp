@@ -7,7 +7,7 @@
 #include "model/core/error.h"
 #include "model/core/joined.h"
 #include "model/core/rounded.h"
-#include "model/dance/validation.h"
+#include "model/dance/timeline/validation.h"
 
 namespace choreo {
 namespace {

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "model/dance/controls/track_frames.h"
-#include "model/dance/spec_poses.h"
-#include "model/dance/warning.h"
+#include "model/dance/timeline/spec_poses.h"
+#include "model/dance/timeline/warning.h"
 #include "model/messages/quality_report.h"
 #include "model/motion/control_request.h"
 #include "model/motion/velocity_factors.h"

@@ -55,7 +55,7 @@ export function duplicateKey() {
   set([key], isTaken(now) ? next ?? now + 15 : now);
 }
 
-const endHold = 1; // seconds that an ending is held at least, as in the program (client/authoring/ending.cpp)
+const endHold = 1; // seconds that an ending is held at least, as in the program (client/authoring/keys/ending.cpp)
 const endHoldUncounted = 1.5; // without beats
 
 /// Lets the dance come to rest in a key's pose where the dancer is then: on the last beat that leaves time to hold it, and to the last frame.

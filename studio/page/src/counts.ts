@@ -96,7 +96,7 @@ export function placeAmong(seconds: number, times: number[]): number {
   return at + (seconds - times[at]) / (times[at + 1] - times[at]);
 }
 
-/// The second this many counts later, as in the program (client/authoring/counts.h). `times`: at least two.
+/// The second this many counts later, as in the program (client/authoring/fields/counts.h). `times`: at least two.
 export function later(seconds: number, counts: number, times: number[]): number {
   const place = placeAmong(seconds, times) + counts;
   const at = intervalAt(Math.floor(place), times);

@@ -99,7 +99,7 @@ export const isInHold = (key: Key, frame: number) => key.hold > 0 && key.frame <
 
 /// The keys, with shortened holds. No hold lasts until the next key or past the last frame. A hold
 /// that would overlap the next key ends early enough for the transition to it, as in the program
-/// (client/authoring/dance_keys.cpp). A hold to the dance's end ends exactly on the last frame.
+/// (client/authoring/keys/dance_keys.cpp). A hold to the dance's end ends exactly on the last frame.
 export const trimmed = (keys: Key[], frames: number, fps: number) =>
   keys.map((key, i) => {
     const next = keys[i + 1]?.frame ?? Infinity;

@@ -1,4 +1,4 @@
-#include "client/authoring/beat_options.h"
+#include "client/authoring/music/beat_options.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,9 +9,9 @@
 #include <numbers>
 #include <string>
 
-#include "client/authoring/music.h"
-#include "client/authoring/notes.h"
-#include "client/authoring/project_file.h"
+#include "client/authoring/fields/notes.h"
+#include "client/authoring/music/music.h"
+#include "client/authoring/project/project_file.h"
 #include "model/audio/beats/onset.h"
 #include "model/audio/signal/format.h"
 #include "tests/support/expect_error.h"

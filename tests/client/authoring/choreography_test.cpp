@@ -1,4 +1,4 @@
-#include "client/authoring/choreography.h"
+#include "client/authoring/keys/choreography.h"
 
 #include <gtest/gtest.h>
 

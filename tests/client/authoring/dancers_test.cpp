@@ -4,9 +4,9 @@
 #include <fstream>
 #include <regex>
 
-#include "client/authoring/counts.h"
-#include "client/authoring/formation.h"
-#include "client/authoring/pose_library.h"
+#include "client/authoring/fields/counts.h"
+#include "client/authoring/keys/pose_library.h"
+#include "client/authoring/project/formation.h"
 #include "model/core/atomic_file.h"
 #include "model/motion/canonical.h"
 #include "model/motion/kinematics.h"

@@ -1,4 +1,4 @@
-#include "client/authoring/key_file.h"
+#include "client/authoring/keys/key_file.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,11 +9,11 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "client/authoring/dance_keys.h"
-#include "client/authoring/key_faults.h"
+#include "client/authoring/keys/dance_keys.h"
+#include "client/authoring/keys/key_faults.h"
 #include "client/convert.h"
+#include "model/formats/containers/npz.h"
 #include "model/formats/motion_file.h"
-#include "model/formats/npz.h"
 #include "model/motion/kinematics.h"
 #include "model/motion/resample.h"
 #include "tests/support/expect_error.h"

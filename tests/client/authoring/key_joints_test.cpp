@@ -1,12 +1,12 @@
-#include "client/authoring/key_joints.h"
+#include "client/authoring/keys/key_joints.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <string>
 
-#include "client/authoring/key_file.h"
-#include "client/authoring/pose_library.h"
+#include "client/authoring/keys/key_file.h"
+#include "client/authoring/keys/pose_library.h"
 #include "model/motion/canonical.h"
 #include "model/motion/kinematics.h"
 #include "tests/support/expect_error.h"

@@ -1,4 +1,4 @@
-#include "client/authoring/photo_pose.h"
+#include "client/authoring/keys/photo_pose.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,10 +9,10 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
-#include "client/authoring/pose_library.h"
-#include "client/authoring/pose_source.h"
+#include "client/authoring/keys/pose_library.h"
+#include "client/authoring/keys/pose_source.h"
 #include "model/fit/mediapipe_source.h"
-#include "model/formats/npz.h"
+#include "model/formats/containers/npz.h"
 #include "model/motion/floor_clearance.h"
 #include "model/motion/kinematics.h"
 #include "model/motion/rotation.h"

@@ -1,4 +1,4 @@
-#include "client/authoring/pose_library.h"
+#include "client/authoring/keys/pose_library.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <ostream>
 
-#include "client/authoring/pose_source.h"
+#include "client/authoring/keys/pose_source.h"
 #include "model/body/doll.h"
 #include "model/motion/floor_clearance.h"
 #include "model/motion/joint_angles.h"

@@ -4,7 +4,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "client/authoring/project_file.h"
+#include "client/authoring/project/project_file.h"
 #include "tests/client/command_fixture.h"
 #include "tests/client/test_music.h"
 #include "tests/support/expect_error.h"

@@ -1,8 +1,8 @@
-#include "client/authoring/written_controls.h"
+#include "client/authoring/controls/written_controls.h"
 
 #include <gtest/gtest.h>
 
-#include "client/authoring/project_file.h"
+#include "client/authoring/project/project_file.h"
 #include "client/cli/options/options.h"
 #include "tests/support/expect_error.h"
 

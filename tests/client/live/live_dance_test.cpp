@@ -20,8 +20,8 @@
 #include <thread>
 
 #include "choreo/v1/choreography.grpc.pb.h"
+#include "client/authoring/keys/pose_library.h"
 #include "client/authoring/local_server.h"
-#include "client/authoring/pose_library.h"
 #include "model/formats/motion_file.h"
 #include "model/motion/kinematics.h"
 #include "proto/wire/convert.h"

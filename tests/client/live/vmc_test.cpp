@@ -11,7 +11,7 @@
 #include <map>
 #include <regex>
 
-#include "client/authoring/pose_library.h"
+#include "client/authoring/keys/pose_library.h"
 #include "model/formats/motion_file.h"
 #include "model/motion/kinematics.h"
 #include "tests/client/command_fixture.h"

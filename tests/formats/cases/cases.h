@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "model/core/atomic_file.h"
+#include "model/formats/containers/npz.h"
 #include "model/formats/motion_file.h"
-#include "model/formats/npz.h"
 #include "model/motion/kinematics.h"
 #include "model/motion/rotation.h"
 #include "tests/support/rig_files.h"

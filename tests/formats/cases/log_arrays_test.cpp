@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "model/formats/amass_npz.h"
+#include "model/formats/arrays/amass_npz.h"
 #include "tests/formats/cases/cases.h"
 #include "tests/support/expect_error.h"
 #include "tests/support/pickles.h"

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "model/core/npy.h"
-#include "model/formats/amass_npz.h"
+#include "model/formats/arrays/amass_npz.h"
 #include "tests/formats/cases/cases.h"
 
 namespace choreo::cases_test {

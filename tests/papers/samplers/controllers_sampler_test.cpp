@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "bench/random_checkpoints.h"
-#include "model/dance/transition.h"
+#include "model/dance/transition/transition.h"
 #include "model/motion/kinematics.h"
 #include "model/samplers/samplers.h"
 #include "tests/samplers/sampled.h"

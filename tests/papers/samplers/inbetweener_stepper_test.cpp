@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "bench/random_checkpoints.h"
-#include "model/dance/transition.h"
+#include "model/dance/transition/transition.h"
 #include "model/motion/kinematics.h"
 #include "model/samplers/samplers.h"
 #include "tests/samplers/sampled.h"

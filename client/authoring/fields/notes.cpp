@@ -1,0 +1,29 @@
+#include "client/authoring/fields/notes.h"
+
+#include <utility>
+
+namespace choreo::authoring {
+namespace {
+
+NoteSink& Sink() {
+  static NoteSink sink;
+  return sink;
+}
+
+thread_local NotesApart* innermost = nullptr;
+
+}  // namespace
+
+NotesApart::NotesApart() : outer_(std::exchange(innermost, this)) {}
+NotesApart::~NotesApart() { innermost = outer_; }
+
+void SetNoteSink(NoteSink sink) { Sink() = std::move(sink); }
+
+void Note(const std::string& line) {
+  if (innermost)
+    innermost->lines_.push_back(line);
+  else if (Sink())
+    Sink()(line);
+}
+
+}  // namespace choreo::authoring
