@@ -68,8 +68,13 @@ void CheckMusic(const v1::AudioFormat& format) {
       }
       return;
     default:
-      throw InvalidArgument(field + ".encoding", std::to_string(format.encoding()) +
-                                                     " is none of PCM_F32LE, PCM_S16LE, FILE");
+      throw InvalidArgument(
+          field + ".encoding",
+          (format.encoding() == v1::AUDIO_ENCODING_UNSPECIFIED
+               ? "missing"
+               : std::to_string(format.encoding())) +
+              std::string("; there are AUDIO_ENCODING_PCM_F32LE, AUDIO_ENCODING_PCM_S16LE, "
+                          "AUDIO_ENCODING_FILE"));
   }
 }
 

@@ -179,7 +179,7 @@ INSTANTIATE_TEST_SUITE_P(
         {"AudioEncoding",
          WithConfig("audio_format {}"),
          "config.audio_format.encoding",
-         {"PCM_F32LE"}},
+         {"missing; there are AUDIO_ENCODING_PCM_F32LE, "}},
         {"SampleRate",
          WithConfig("audio_format { encoding: AUDIO_ENCODING_PCM_S16LE sample_rate: 7999 "
                     "channels: 1 }"),
