@@ -1,4 +1,5 @@
 #include <limits>
+#include <utility>
 
 #include "tests/server/bad_stream.h"
 
@@ -31,6 +32,14 @@ auto WithNext(const std::string& text) {
     Merge(text, requests.back().mutable_keyframe());
     return requests;
   };
+}
+
+// A key at 10 s, in a dance of 2.
+Requests BeyondTheEnd(KeyMessage key) {
+  Requests requests = {ConfigRequest(), std::move(key)};
+  requests[0].mutable_config()->set_frames(60);
+  requests[1].mutable_keyframe()->set_time(10);
+  return requests;
 }
 
 constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
@@ -69,6 +78,10 @@ INSTANTIATE_TEST_SUITE_P(
             ".interval_after_previous", {"9223372036854775807", "[2, "}),
         Bad("MaskTwice", "mask { joints: [3, 3] }", ".mask.joints[1]", {"3"}),
         Bad("MaskBeyond", "mask { joints: 24 }", ".mask.joints[0]", {"24", "23"}),
+        BadStreamCase{"BeyondTheEnd",
+                      BeyondTheEnd,
+                      "keyframes[0].time",
+                      {"10 s is not before the end of the dance, 2 s"}},
         BadStreamCase{
             "TooClose", WithNext("id: 'next' frame: 41"), "keyframes[1].frame", {"41", "40"}},
         BadStreamCase{

@@ -122,9 +122,13 @@ std::optional<KeyRejected> Timeline::Set(Key key, const KeyMoment& when, const s
   const int64_t frame = Resolve(when, field);
   key.frame = frame;
   if (options_.end_frame && frame >= *options_.end_frame) {
-    throw InvalidArgument(PathOf(when, field), "frame " + Frames(frame) +
-                                                   " is not before the end of the dance, " +
-                                                   Frames(*options_.end_frame));
+    const auto* at = std::get_if<AtTime>(&when);
+    const double end = static_cast<double>(*options_.end_frame) / options_.fps;
+    throw InvalidArgument(
+        PathOf(when, field),
+        at ? Show(at->seconds) + " s is not before the end of the dance, " + Show(end) + " s"
+           : "frame " + Frames(frame) + " is not before the end of the dance, " +
+                 Frames(*options_.end_frame));
   }
   const auto same = keys_.find(frame);
   if (same != keys_.end() && same->second.id != id) {
