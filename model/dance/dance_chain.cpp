@@ -126,7 +126,7 @@ void DanceChain::PushAudio(std::span<const float> interleaved, int64_t first_sam
 void DanceChain::FinishAudio() {
   AudioFeed& audio = Audio("end_of_audio");
   if (audio.finished()) throw Error(ErrorCode::kFailedPrecondition, "end_of_audio", "came before");
-  if (audio.next_sample() == 0) throw InvalidArgument("push_audio", "ended without a sample");
+  if (audio.next_sample() == 0) throw InvalidArgument("end_of_audio", "no sample came before");
   // Sets the end of the music before rows after it can be danced.
   Apply(&DanceScore::EndOfAudio);
   audio.Finish();

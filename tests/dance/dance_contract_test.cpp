@@ -60,10 +60,10 @@ TEST_F(DanceContract, AudioThatIsNoAudioIsRefused) {
               ::testing::HasSubstr("samples: 1999 values"));
   EXPECT_EQ(
       Refusal([](DanceStream& stream) { stream.EndOfAudio(); }, ErrorCode::kInvalidArgument, true),
-      "push_audio: ended without a sample");
+      "end_of_audio: no sample came before");
   EXPECT_EQ(
       Refusal([](DanceStream& stream) { stream.HalfClose(); }, ErrorCode::kInvalidArgument, true),
-      "push_audio: ended without a sample");
+      "end_of_audio: no sample came before");
   EXPECT_EQ(Refusal([&](DanceStream& stream) { stream.PushAudio(samples, 0); },
                     ErrorCode::kInvalidArgument),
             "push_audio: comes in a dance without music");

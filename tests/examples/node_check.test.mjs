@@ -87,6 +87,24 @@ test('a request that the API does not know is refused by its path', () =>
     await assert.rejects(collect(client.generateTransition()), { message: /^request: undefined is not a GenerateTransitionRequest/ });
   }));
 
+test('a fault in one of several requests is told with its index', () =>
+  withClient(async (client) => {
+    const open = { config: { frames: 99, generate_until: 0 } };
+    const heard = { config: { frames: 99, audio_format: { encoding: 'AUDIO_ENCODING_PCM_S16LE', sample_rate: 16000, channels: 1 } } };
+    const piece = { data: new Uint8Array(100) };
+    for (const [requests, message] of [
+      [[open, {}], /^requests\[1\]: is empty; there are config, audio, /],
+      [[open, { keyframe: undefined, controls: undefined }], /^requests\[1\]\.keyframe: undefined is not a Keyframe/],
+      [[open, { generate_until: { frame: 9 } }, { config: {} }], 'requests[2].config: came before; it may come only once'],
+      [[heard, { audio: piece }, { audio: { ...piece, first_sample: 500 } }, { audio: piece }], 'requests[2].audio.first_sample: 500 leaves a gap: the sample expected is 50'],
+      [[open, { generate_until: { frame: 20 } }, { generate_until: { frame: 10 } }], 'requests[2].generate_until.frame: 10 is not in [20, 108000]: it may only grow'],
+      [[open, { keyframes_complete: {} }, { keyframes_complete: {} }], 'requests[2].keyframes_complete: comes after keyframes_complete'],
+      [[heard, { end_of_audio: {} }, { audio: piece }], 'requests[1].end_of_audio: no sample came before'],
+    ]) {
+      await assert.rejects(collect(client.streamDance(requests)), { code: /^(INVALID_ARGUMENT|OUT_OF_RANGE)$/, message });
+    }
+  }));
+
 test('one request is not a list', async () => {
   const client = new ChoreoClient(process.env.CHOREO_SERVER);
   await assert.rejects(client.streamDance({ config: {} }).next(), { message: 'requests: is one object: put it in a list, [{ config }, ...]' });

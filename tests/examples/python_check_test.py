@@ -370,6 +370,21 @@ print(api_implementation.Type())
             self.assert_refused(f"config.seed: '{text}' is not a whole number", self.dance, {"config": {"seed": text}})
         self.assert_refused("config.seed: '18446744073709551616' is more than", self.dance, {"config": {"seed": "18446744073709551616"}})
 
+    def test_a_fault_in_one_of_several_requests_is_told_with_its_index(self):
+        opened = {"config": {"frames": 99, "generate_until": 0}}
+        heard = {"config": {"frames": 99, "audio_format": {"encoding": "AUDIO_ENCODING_PCM_S16LE", "sample_rate": 16000, "channels": 1}}}
+        piece = {"data": bytes(100)}
+        for requests, message in (
+            ([opened, {}], r"requests\[1\]: is empty; there are config, audio, "),
+            ([opened, {"generate_until": {"frame": 9}}, {"config": {}}], r"requests\[2\]\.config: came before"),
+            ([heard, {"audio": piece}, {"audio": {**piece, "first_sample": 500}}, {"audio": piece}], r"requests\[2\]\.audio\.first_sample: 500 leaves a gap"),
+            ([opened, {"generate_until": {"frame": 20}}, {"generate_until": {"frame": 10}}], r"requests\[2\]\.generate_until\.frame: 10 is not in"),
+            ([opened, {"keyframes_complete": {}}, {"keyframes_complete": {}}], r"requests\[2\]\.keyframes_complete: comes after"),
+            ([heard, {"end_of_audio": {}}, {"audio": piece}], r"requests\[1\]\.end_of_audio: no sample came before"),
+        ):
+            with self.subTest(message), self.assertRaisesRegex(ChoreoError, f"^{message}"):
+                list(self.client.stream_dance(requests))
+
     def test_public_functions_say_what_they_take_and_give(self):
         public = [aio.stream, pose]
         for kind in (Answers, Client):

@@ -79,7 +79,7 @@ INSTANTIATE_TEST_SUITE_P(
          },
          "end_of_audio",
          {R"("encoding": "AUDIO_ENCODING_FILE")"}},
-        {"None", Pieces({}), "audio", {"without a sample"}},
+        {"None", Pieces({}), "end_of_audio", {"no sample came before"}},
         {"EmptyPieces",
          Pieces({AudioRequest(0, 0), AudioRequest(0, 0)}),
          "audio",

@@ -37,6 +37,12 @@ export function checked(type, value, name, encoding) {
   }
 }
 
+/** Throws for number `at` of a dance's requests if it has no field. */
+export function requireKind(request, at) {
+  if (Object.keys(request).length > 0) return;
+  throw invalid(`requests[${at}]`, `is empty; there are ${Object.keys(api.lookupType('choreo.v1.StreamDanceRequest').fields).join(', ')}`);
+}
+
 /** Throws for `audio` that is too large for a message. `remedy`: the error's advice. */
 export function requireSendable(audio, remedy) {
   const size = audio?.data?.length ?? 0;

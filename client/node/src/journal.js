@@ -1,8 +1,11 @@
 // Stores all requests of a dance, in order, to repeat them to another server: a dance resumes from the last continuation and the same messages.
 // Discards only music that is no longer needed.
-import { checked, requireSendable } from './check.js';
+import { checked, requireKind, requireSendable } from './check.js';
 import { invalid } from './error.js';
 import { hasMoment, RefusedKeys, requireKey } from './refused_keys.js';
+
+/** Kinds of requests of which a dance takes one. */
+const once = ['config', 'end_of_audio', 'keyframes_complete'];
 
 export class Journal {
   #source;
@@ -52,6 +55,7 @@ export class Journal {
     try {
       const fine = checked('StreamDanceRequest', request, `requests[${this.#requests.length}]`, this.#format()?.encoding);
       requireKey(request, fine);
+      requireKind(fine, this.#requests.length);
       requireSendable(fine.audio, 'send it in pieces');
       this.refusedKeys.note(fine);
       if (fine.audio && this.#format()) this.#numberPiece(fine.audio);
@@ -83,15 +87,19 @@ export class Journal {
 
   /**
    * Finds the latest request that may contain a field; for a key, the request with its id, if it is known. Includes the request's index if no
-   * other one may contain the field.
+   * other one may contain the field, if no other one has the value with which the error's description begins, or if it is the second of a kind that
+   * may come once.
    */
-  find({ field, keyframeId }) {
-    const kind = field.split(/[.[]/)[0];
+  find({ field, keyframeId, description = '' }) {
+    const [kind, ...members] = field.split(/[.[\]]+/).filter(Boolean);
     const ofKey = ({ keyframe }) => keyframeId === undefined || keyframe?.id === keyframeId;
     const mayHave = (request) => request?.[kind] && (kind !== 'keyframe' || ofKey(request));
-    const last = this.#requests.findLastIndex(mayHave);
-    const isAlone = last >= 0 && !this.#requests.some((request, at) => at !== last && (request === null ? kind === 'audio' : mayHave(request)));
-    return { message: this.#requests[last], request: isAlone ? last : undefined };
+    const found = this.#requests.flatMap((request, at) => (mayHave(request) ? at : []));
+    const value = (at) => members.reduce((one, member) => one?.[member], this.#requests[at][kind]);
+    const said = found.filter((at) => members.length > 0 && description.startsWith(`${value(at)} `));
+    const isLost = kind === 'audio' && this.#requests.includes(null); // one that may have it is discarded
+    const request = said.length === 1 ? said[0] : found.length === 1 && !isLost ? found[0] : once.includes(field) ? found[1] : undefined;
+    return { message: this.#requests[request ?? found.at(-1)], request };
   }
 
   /** Discards music before this sample, which another server would not need. The present server has been sent the first `sent` requests. */

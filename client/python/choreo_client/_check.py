@@ -37,6 +37,12 @@ def checked(kind, value, name, encoding=0):
         raise
 
 
+def require_kind(request, at):
+    """Raises ChoreoError for number `at` of a dance's requests if it has no field."""
+    if request.WhichOneof("request") is None:
+        raise invalid(f"requests[{at}]", f"is empty; there are {', '.join(field.name for field in request.DESCRIPTOR.fields)}")
+
+
 def require_sendable(request, remedy):
     """Raises ChoreoError for a request whose music makes it too large. `remedy`: the error's advice."""
     if request.HasField("audio") and request.ByteSize() > _MOST_BYTES:

@@ -7,13 +7,14 @@ import re
 import threading
 
 from . import choreography
-from ._check import checked, require_sendable
+from ._check import checked, require_kind, require_sendable
 from ._errors import ChoreoError, Violation, invalid
 from ._from_loop import FromLoop
 from ._refused_keys import RefusedKeys, require_key
 from ._words import quoted
 
 _BYTES = {choreography.AUDIO_ENCODING_PCM_F32LE: 4, choreography.AUDIO_ENCODING_PCM_S16LE: 2}
+_ONCE = ("config", "end_of_audio", "keyframes_complete")  # kinds of requests of which a dance takes one
 
 
 class Journal:
@@ -59,6 +60,7 @@ class Journal:
         try:
             fine = checked(choreography.StreamDanceRequest, request, f"requests[{len(self._said)}]", config.audio_format.encoding)
             require_key(request, fine)
+            require_kind(fine, len(self._said))
             require_sendable(fine, "send it in pieces")
             self.refused_keys.note(fine)
             return self._numbered(fine) if self._said and fine.HasField("audio") else fine
@@ -101,8 +103,9 @@ class Journal:
 
     def find(self, violation):
         """Finds the latest request that may contain the violation's field, or None; for a key, the request with its id, if it is known. Also
-        returns the request's index if no other one may contain the field."""
-        kind = re.match(r"\w*", violation.field)[0]
+        returns the request's index if no other one may contain the field, if no other one has the value with which the error's description
+        begins, or if it is the second of a kind that may come once."""
+        kind, *members = re.findall(r"\w+", violation.field) or [""]
 
         def may_have(request):
             if request is None:
@@ -112,6 +115,11 @@ class Journal:
         found = [(request, at) for at, request in enumerate(list(self._said)) if may_have(request)]
         if not found:
             return None, None
+        said = [one for one in found if members and violation.description.startswith(f"{_value(one[0], [kind, *members])} ")]
+        if len(said) == 1:
+            return said[0]
+        if len(found) > 1 and violation.field in _ONCE:
+            return found[1]
         request, at = found[-1]
         return request, at if len(found) == 1 else None
 
@@ -163,6 +171,16 @@ class Journal:
             if frames.get(key.id, frame) < frame:
                 found.append((key.id, frames[key.id]))
         return found
+
+
+def _value(message, path):
+    """The value at a path of names and indices; None where there is none."""
+    for name in path:
+        try:
+            message = message[int(name)] if name.isdigit() else getattr(message, name)
+        except (AttributeError, IndexError, TypeError):
+            return None
+    return message
 
 
 def _frame_of(key, previous, rate):
