@@ -63,12 +63,13 @@ BeatsAhead BeatEar::Hear(std::span<const float> mono) {
     onsets_.erase(onsets_.begin(), onsets_.begin() + old);
     first_ += old;
   }
-  found_ = std::async(std::launch::async,
-                      [onsets = onsets_, first = first_, limits = LimitsOf(hint_.beats)] {
-                        BeatTrack track = TrackBeats(onsets, limits);
-                        for (int64_t& frame : track.frames) frame += first;
-                        return track;
-                      });
+  const std::optional<int64_t> kept = kept_ ? std::optional(*kept_ - first_) : std::nullopt;
+  found_ =
+      std::async(std::launch::async, [onsets = onsets_, first = first_, hint = hint_.beats, kept] {
+        BeatTrack track = TrackNear(hint, onsets, {}, kept);
+        for (int64_t& frame : track.frames) frame += first;
+        return track;
+      });
   return {};
 }
 

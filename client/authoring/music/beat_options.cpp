@@ -118,18 +118,13 @@ int64_t DropBehind(int64_t end, BeatTrack* track) {
   return behind;
 }
 
-bool IsNear(double bpm, double other) {
-  const double ratio = bpm / other;
-  return std::max(ratio, 1 / ratio) <= 1 + kSameTempo;
-}
-
 /// Whether eight beats somewhere have this tempo, or one that listeners confuse with it.
 bool HasTempo(std::span<const double> beats, double bpm) {
   constexpr size_t kBeats = 8;
   for (size_t i = 0; i + kBeats < beats.size(); ++i) {
     const double tempo = TempoOf(beats.subspan(i, kBeats + 1));
     for (const double times : {1.0, 2.0, 3.0, 1.5}) {
-      if (IsNear(tempo * times, bpm) || IsNear(tempo / times, bpm)) return true;
+      if (IsSameTempo(tempo * times, bpm) || IsSameTempo(tempo / times, bpm)) return true;
     }
   }
   return false;
@@ -146,7 +141,7 @@ void WarnOfTempo(std::span<const Onset> onsets, double asked_bpm, double found_b
     warning = " is far from the tempo heard, " + whole(heard.tempo_bpm) + " beats a minute";
   }
   const bool followed = std::ranges::any_of(std::array{0.5, 1.0, 2.0}, [&](double times) {
-    return IsNear(found_bpm, times * asked_bpm);
+    return IsSameTempo(found_bpm, times * asked_bpm);
   });
   if (taken_bpm == 0)
     warning += warning.empty() ? " finds no beat" : "; it finds no beat";
@@ -239,9 +234,8 @@ void RequireSong(const BeatOptions& options, const std::string& song) {
 
 BeatTrack BeatsAsAsked(std::span<const Onset> onsets, double start, const BeatOptions& options,
                        std::span<const float> mono) {
-  BeatTrack track = options.FindsThem()
-                        ? TrackBeats(onsets, LimitsOf(options.hint), MusicExtent::kWhole, mono)
-                        : ReadBeats(*options.beats, start);
+  BeatTrack track = options.FindsThem() ? TrackNear(options.hint, onsets, mono)
+                                        : ReadBeats(*options.beats, start);
   // The last row of onsets ends a little later than the song.
   const double end = mono.empty() ? static_cast<double>(onsets.size()) / kOnsetRate
                                   : static_cast<double>(mono.size()) / kModelSampleRate;

@@ -12,6 +12,8 @@ namespace {
 
 constexpr double kTempoSlack = 1 + kSameTempo;  // either way
 constexpr double kPauseBeats = 1.6;             // beats; longer gaps are pauses
+constexpr int64_t kNearFrames = 6;              // 70 ms: beats so near are one
+constexpr double kNearlyAllBeats = 0.9;
 
 /// Whole beats from beat `i` to the next: 1, or more over a pause. The gaps around tell how long a
 /// beat is, as the tempo may have changed.
@@ -63,54 +65,90 @@ void Count(std::span<const int64_t> since, BeatTrack* track) {
     track->in_bar.push_back(static_cast<int>((beats % bar + bar) % bar));
 }
 
-void Halve(std::optional<int64_t> kept, BeatTrack* track) {
+/// Keeps every n-th beat.
+void Divide(int64_t n, std::optional<int64_t> kept, BeatTrack* track) {
   const std::vector<int64_t> since = SinceDownbeat(*track);
-  const int64_t half = kept ? since[static_cast<size_t>(NearestBeat(*track, *kept))] % 2 : 0;
+  const int64_t first = kept ? since[static_cast<size_t>(NearestBeat(*track, *kept))] % n : 0;
   BeatTrack fewer{.beats_in_bar = track->beats_in_bar};
   std::vector<int64_t> counts;
   for (size_t i = 0; i < since.size(); ++i) {
-    if ((since[i] - half) % 2 != 0) continue;
+    if ((since[i] - first) % n != 0) continue;
     fewer.frames.push_back(track->frames[i]);
     fewer.confidence.push_back(track->confidence[i]);
-    counts.push_back((since[i] - half) / 2);
+    counts.push_back((since[i] - first) / n);
   }
   Count(counts, &fewer);
   *track = std::move(fewer);
 }
 
-void Double(BeatTrack* track) {
+/// Makes n beats of each.
+void Multiply(int64_t n, BeatTrack* track) {
   const std::vector<int64_t> since = SinceDownbeat(*track);
-  BeatTrack twice{.beats_in_bar = track->beats_in_bar};
+  BeatTrack more{.beats_in_bar = track->beats_in_bar};
   std::vector<int64_t> counts;
-  const auto add = [&](int64_t frame, double confidence, int64_t count) {
-    twice.frames.push_back(frame);
-    twice.confidence.push_back(confidence);
-    counts.push_back(count);
-  };
   const std::vector<int64_t>& frames = track->frames;
   for (size_t i = 0; i < frames.size(); ++i) {
-    add(frames[i], track->confidence[i], 2 * since[i]);
-    if (i + 1 < frames.size() && BeatsToNext(frames, i) == 1)
-      add((frames[i] + frames[i + 1]) / 2, track->confidence[i], 2 * since[i] + 1);
+    const bool goes_on = i + 1 < frames.size() && BeatsToNext(frames, i) == 1;
+    for (int64_t part = 0; part < (goes_on ? n : 1); ++part) {
+      const int64_t later = part > 0 ? part * (frames[i + 1] - frames[i]) / n : 0;
+      more.frames.push_back(frames[i] + later);
+      more.confidence.push_back(track->confidence[i]);
+      counts.push_back(n * since[i] + part);
+    }
   }
-  Count(counts, &twice);
-  *track = std::move(twice);
+  Count(counts, &more);
+  *track = std::move(more);
+}
+
+/// Whether nearly all beats of `track` are every `step`-th one of `others`, and nearly as many.
+bool AreEvery(int64_t step, std::span<const int64_t> others, std::span<const int64_t> track) {
+  double follow = 0;
+  int64_t before = -1;  // the place in `others` of the beat before
+  for (const int64_t frame : track) {
+    const auto after = std::ranges::lower_bound(others, frame + kNearFrames + 1);
+    const int64_t place = after - others.begin() - 1;
+    const bool is_one = place >= 0 && frame - others[static_cast<size_t>(place)] <= kNearFrames;
+    follow += is_one && before >= 0 && place == before + step;
+    before = is_one ? place : -1;
+  }
+  return follow >= kNearlyAllBeats * static_cast<double>(std::ssize(others) / step - 1);
+}
+
+TempoLimits LimitsAround(double bpm) {
+  const TempoLimits limits;
+  return {std::max(limits.slowest_bpm, bpm / kTempoSlack),
+          std::min(limits.fastest_bpm, bpm * kTempoSlack)};
 }
 
 }  // namespace
 
-TempoLimits LimitsOf(const BeatHint& hint) {
-  TempoLimits limits;
-  if (!hint.tempo_bpm) return limits;
-  limits.slowest_bpm = std::max(limits.slowest_bpm, *hint.tempo_bpm / kTempoSlack);
-  limits.fastest_bpm = std::min(limits.fastest_bpm, *hint.tempo_bpm * kTempoSlack);
-  return limits;
+BeatTrack TrackNear(const BeatHint& hint, std::span<const Onset> onsets,
+                    std::span<const float> mono, std::optional<int64_t> kept) {
+  BeatTrack heard = TrackBeats(onsets, {}, MusicExtent::kWhole, mono);
+  if (!hint.tempo_bpm) return heard;
+  const double bpm = *hint.tempo_bpm;
+  BeatTrack near = TrackBeats(onsets, LimitsAround(bpm), MusicExtent::kWhole, mono);
+  if (heard.frames.empty()) return near;
+  for (const int n : {2, 3}) {
+    if (IsSameTempo(heard.tempo_bpm, n * bpm)) {
+      if (AreEvery(n, heard.frames, near.frames)) return near;
+      Divide(n, kept, &heard);
+    } else if (IsSameTempo(n * heard.tempo_bpm, bpm)) {
+      Multiply(n, &heard);
+      if (AreEvery(1, heard.frames, near.frames)) return near;
+    } else {
+      continue;
+    }
+    heard.tempo_bpm = TempoOf(heard.Seconds());
+    return heard;
+  }
+  return near;
 }
 
 void Follow(const BeatHint& hint, BeatTrack* track, std::optional<int64_t> kept) {
   if (track->frames.empty()) return;
-  if (hint.half_time) Halve(kept, track);
-  if (hint.double_time) Double(track);
+  if (hint.half_time) Divide(2, kept, track);
+  if (hint.double_time) Multiply(2, track);
 }
 
 void CountFrom(int64_t beat, int64_t count, BeatTrack* track) {

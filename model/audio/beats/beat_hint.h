@@ -10,7 +10,7 @@ namespace choreo {
 
 /// A user's hint about a song's beats.
 struct BeatHint {
-  std::optional<double> tempo_bpm = {};  ///< beats are searched within 6 % of it
+  std::optional<double> tempo_bpm = {};  ///< beats are searched within 6 % of it (TrackNear)
   bool half_time = false, double_time = false;
 
   bool operator==(const BeatHint&) const = default;
@@ -20,8 +20,12 @@ struct BeatHint {
 inline constexpr double kSlowestHint = 50, kFastestHint = 200;
 inline constexpr int kDefaultBar = 4;  ///< beats in a bar if unknown
 
-/// The tempi to search for this hint.
-TempoLimits LimitsOf(const BeatHint& hint);
+/// Finds the beats of a whole song (TrackBeats) near the hint's tempo, if it has one. Where that is
+/// a half or a third of the tempo heard without a hint, or two or three times it, the search near
+/// it may fall between the beats that are heard: then these are divided or multiplied as by Follow.
+/// `mono` as in TrackBeats, `kept` as in Follow. Pure.
+BeatTrack TrackNear(const BeatHint& hint, std::span<const Onset> onsets,
+                    std::span<const float> mono = {}, std::optional<int64_t> kept = {});
 
 /// Removes or adds every second beat according to the hint. Half time keeps every second beat,
 /// counted from the beat nearest to frame `kept` or, without it, from the first downbeat of each

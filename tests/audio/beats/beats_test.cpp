@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/audio/beats/beat_hint.h"
 #include "model/audio/music/made_song.h"
 #include "model/core/error.h"
 #include "model/metrics/song_beats.h"
@@ -194,6 +195,26 @@ TEST(BeatsTest, AnIntroOfOneChordABarHasTheDrumsTempo) {
     song.insert(song.end(), drums.begin(), drums.end());
     const double end = bars * 4 * period + 20;
     EXPECT_GT(BeatFMeasure(FindBeats(song).Seconds(), Every(period, 0.2, end)), 0.9) << bpm;
+  }
+}
+
+// The search near half of the tempo gave the hats between the beats, or jumped from one to another.
+TEST(BeatsTest, AHintOfAMultipleOfTheTempoKeepsToTheBeats) {
+  const std::vector<Onset> onsets = FindOnsets(Drums(0.2, 0.5, "khsh"));
+  const auto track = [&](double bpm) { return TrackNear({.tempo_bpm = bpm}, onsets).Seconds(); };
+  const std::vector<double> half = track(60), as_half = track(62);
+  EXPECT_GT(std::max(BeatFMeasure(half, Every(1, 0.2, 20)), BeatFMeasure(half, Every(1, 0.7, 20))),
+            0.95);
+  EXPECT_EQ(as_half, half) << "it is searched near the hint";
+  for (const double bpm : {60, 80, 90}) {
+    const MadeSong song =
+        MakeSong({.seed = 9'000'500, .seconds = 20, .tempo = {{0, bpm}}, .swing = true});
+    std::vector<double> halves;
+    for (size_t i = 0; i + 1 < song.beats.size(); ++i)
+      halves.insert(halves.end(), {song.beats[i], (song.beats[i] + song.beats[i + 1]) / 2});
+    const BeatTrack twice = TrackNear({.tempo_bpm = 2 * bpm}, FindOnsets(song.mono));
+    EXPECT_GT(BeatFMeasure(twice.Seconds(), halves), 0.95) << bpm;
+    EXPECT_NEAR(twice.tempo_bpm, 2 * bpm, 1);
   }
 }
 
