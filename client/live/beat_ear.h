@@ -17,6 +17,8 @@ struct LiveBeatHint {
   BeatHint beats = {};
   std::optional<double> downbeat_s = {};  ///< second of the music at which a bar began
   double later_s = 0;                     ///< seconds by which beats come later than the found ones
+
+  bool operator==(const LiveBeatHint&) const = default;
 };
 
 /// Predicts the beats of live music: finds the beats of its last minutes as in a whole song

@@ -19,6 +19,7 @@ constexpr double kSpareSeconds = 0.05;         // for the network round trip
 constexpr double kMinTransitionSeconds = 0.5;  // between poses
 constexpr double kMinAheadSeconds = 0.1;       // between a pose and what is already danced
 constexpr double kClockMissedSeconds = 5;      // after which a missing MIDI clock is reported
+constexpr double kNoBeat_s = 0;                // of a beat that is only sent to keep others out
 constexpr int kMaxNotes = 5;                   // per second
 constexpr size_t kMaxNoteBytes = 300;          // bytes
 
@@ -82,6 +83,8 @@ void LiveDance::Play(Sound& sound, std::span<const std::unique_ptr<Cues>> cues, 
   double now = 0, shown = 0;
   bool clock_missed = midi == nullptr;
   MusicEar ear(sound.sample_rate(), sound.channels(), {.beats = options_.beats});
+  // Keeps out the server's beats until the ear knows some.
+  if (IsHinted()) dance_->SendBeats(std::array{kNoBeat_s, kBeatBehindMusic_s}, {}, 0);
   while (!over_ && now < options_.seconds && observer_.go_on()) {
     const std::span<const float> piece = sound.Next();
     if (piece.empty()) break;
@@ -255,7 +258,8 @@ void LiveDance::Handle(const client::Message& message) {
     report_ = *report;
   } else {
     const std::lock_guard lock(mutex_);
-    if (const auto* beat = std::get_if<client::Beat>(&message)) {
+    const auto* beat = std::get_if<client::Beat>(&message);
+    if (beat != nullptr && !(IsHinted() && beat->time_s == kNoBeat_s)) {
       clock_.Hear(*beat);
       beats_.push_back(*beat);
     }

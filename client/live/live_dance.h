@@ -88,6 +88,7 @@ class LiveDance {
  private:
   // The functions below run on the thread of Run.
   void Play(Sound& sound, std::span<const std::unique_ptr<Cues>> cues, MidiClock* midi);
+  bool IsHinted() const { return options_.beats != BeatHint(); }
   void SendBeats(BeatsAhead ahead, double now);
   void Follow(const Cue& cue, double now);
   void TakeBack();

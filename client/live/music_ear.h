@@ -6,9 +6,14 @@
 
 #include "client/live/beat_ear.h"
 #include "model/audio/music/passage_ear.h"
+#include "model/audio/signal/format.h"
 #include "model/audio/signal/resampler.h"
 
 namespace choreo::live {
+
+/// A beat behind all music. With a hint it follows the beats of MusicEar: as given beats keep
+/// others from between them, the server adds none of its own, for which it has no hint.
+inline constexpr double kBeatBehindMusic_s = kMaxAudioSeconds;
 
 /// Predicts the beats and repeats of live music, in any sample format, ahead of a dance.
 class MusicEar {
@@ -23,12 +28,13 @@ class MusicEar {
 
   /// Takes the next whole interleaved frames, all finite.
   Ahead Hear(std::span<const float> piece);
-  void SetHint(const LiveBeatHint& hint) { beats_.SetHint(hint); }
+  void SetHint(const LiveBeatHint& hint);
 
  private:
   Resampler resampler_;
   std::vector<float> mono_;  // of this piece
   BeatEar beats_;
+  bool hinted_;
   PassageEar passages_;
 };
 
