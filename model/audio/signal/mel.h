@@ -33,9 +33,13 @@ class MelSpectrum {
  public:
   /// `samples`: at least kFftSize; ignores further ones.
   MelBandsDb Decibels(std::span<const float> samples);
+  /// The bands `db` of the same samples, last given, but without their DC offset: the mean, nearest
+  /// to 0, of the eighths of the window. Music without an offset hardly ever has one.
+  MelBandsDb WithoutDc(std::span<const float> samples, MelBandsDb db) const;
 
  private:
   FourierPower fourier_{kFftSize};
+  std::span<const double> powers_;  // of the samples last given
   std::vector<double> windowed_ = std::vector<double>(kFftSize);
 };
 

@@ -18,19 +18,20 @@ Eigen::VectorXf Hear(const Hearing& hearing, const FeatureStream& music, int64_t
   return features;
 }
 
-// The largest magnitudes of samples, and of the sums of their channels.
+// The largest distances of samples from their channel's offset, and of the sums of the channels.
 struct Peaks {
   float level = 0, sum = 0;
 };
 
 template <typename Channels>
-Peaks PeaksOf(std::span<const float> interleaved, Channels channels) {
+Peaks PeaksOf(std::span<const float> interleaved, std::span<const float> offsets,
+              Channels channels) {
   constexpr size_t kLanes = 16;  // frames processed independently of each other
   std::array<float, kLanes> level{}, sum{};
   const auto add = [&](size_t at, size_t lane) {
     float mixed = 0;
     for (size_t channel = 0; channel < channels; ++channel) {
-      const float sample = interleaved[at + channel];
+      const float sample = interleaved[at + channel] - offsets[channel];
       level[lane] = std::max(level[lane], std::abs(sample));
       mixed += sample;
     }
@@ -44,10 +45,11 @@ Peaks PeaksOf(std::span<const float> interleaved, Channels channels) {
   return {std::ranges::max(level), std::ranges::max(sum)};
 }
 
-Peaks PeaksOf(std::span<const float> interleaved, size_t channels) {
-  if (channels == 1) return PeaksOf(interleaved, std::integral_constant<size_t, 1>());
-  if (channels == 2) return PeaksOf(interleaved, std::integral_constant<size_t, 2>());
-  return PeaksOf<size_t>(interleaved, channels);
+Peaks PeaksOf(std::span<const float> interleaved, std::span<const float> offsets) {
+  const size_t channels = offsets.size();
+  if (channels == 1) return PeaksOf(interleaved, offsets, std::integral_constant<size_t, 1>());
+  if (channels == 2) return PeaksOf(interleaved, offsets, std::integral_constant<size_t, 2>());
+  return PeaksOf<size_t>(interleaved, offsets, channels);
 }
 
 Eigen::VectorXf HearSilence(const Hearing& hearing) {
@@ -75,6 +77,7 @@ AudioFeed::AudioFeed(double sample_rate, int channels, int64_t first_sample, Hea
       hearing_(hearing),
       silence_(HearSilence(hearing)),
       whole_(first_sample == 0),
+      offsets_(static_cast<size_t>(channels)),
       first_row_(features_.first_row()),
       ready_(first_row_),
       published_(first_row_),
@@ -100,7 +103,9 @@ void AudioFeed::Push(std::span<const float> interleaved, int64_t first_sample,
                           "ends at " + std::to_string(static_cast<double>(end) / sample_rate_) +
                               " s, the limit is " + std::to_string(kMaxAudioSeconds) + " s");
   }
-  const Peaks peaks = PeaksOf(interleaved, channels);
+  if (expected == 0 && !interleaved.empty())
+    std::copy_n(interleaved.begin(), channels, offsets_.begin());
+  const Peaks peaks = PeaksOf(interleaved, offsets_);
   peak_ = std::max(peak_, peaks.level);
   mixed_peak_ = std::max(mixed_peak_, peaks.sum / static_cast<float>(channels));
   const size_t second = static_cast<size_t>(sample_rate_) * channels;

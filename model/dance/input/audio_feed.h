@@ -46,8 +46,9 @@ class AudioFeed {
   int64_t EndFrame(double fps) const;
   /// The length of the music so far. Call on the pushing side only.
   double seconds() const { return static_cast<double>(features_.next_sample()) / sample_rate_; }
-  /// Whether all music so far is quieter than kMinLevel. False if the feed does not begin with the
-  /// music's first sample. Call on the pushing side only.
+  /// Whether all music so far, without the DC offset with which it begins, is quieter than
+  /// kMinLevel. False if the feed does not begin with the music's first sample. Call on the pushing
+  /// side only.
   bool silent() const { return whole_ && peak_ < kMinLevel; }
   /// Whether the channels cancel each other, so that the mix has at most a hundredth of their peak.
   /// Call on the pushing side only.
@@ -73,9 +74,10 @@ class AudioFeed {
   int channels_;
   FeatureStream features_;
   const Hearing hearing_;
-  Eigen::VectorXf silence_;  // the model's row for silence; empty if the model does not hear
-  bool whole_;               // whether it begins with the music's first sample
-  float peak_ = 0, mixed_peak_ = 0;  // of the channels, and of their mix
+  Eigen::VectorXf silence_;     // the model's row for silence; empty if the model does not hear
+  bool whole_;                  // whether it begins with the music's first sample
+  std::vector<float> offsets_;  // of the channels: their first samples
+  float peak_ = 0, mixed_peak_ = 0;  // of the channels beside these, and of their mix
 
   mutable std::mutex mutex_;  // guards the members below
   int64_t first_row_;

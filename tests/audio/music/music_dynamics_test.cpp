@@ -64,6 +64,34 @@ TEST(RowSoundTest, ASineIsAsLoudAsTheStandardSays) {
   EXPECT_NEAR(Loudness(high.power), -3.01 + 3.3, 0.5);
 }
 
+// An offset filled the lowest band, beside which all other sound was too soft.
+TEST(RowSoundTest, ADcOffsetIsNotHeard) {
+  std::vector<float> song = Drums(10);
+  for (float& sample : song) sample *= 0.5F;
+  const std::vector<RowSound> rows = RowsOf(song);
+  for (float& sample : song) sample += 0.45F;
+  const std::vector<RowSound> raised = RowsOf(song, 1000);
+  ASSERT_EQ(raised.size(), rows.size());
+  std::vector<double> loud, bass, onset;  // by how much they differ: dB
+  // It begins with a click, beside which other onsets are too soft for a while.
+  for (size_t row = RowOnset::kMemory + 2; row < rows.size(); ++row) {
+    loud.push_back(std::abs(Loudness(raised[row].power) - Loudness(rows[row].power)));
+    bass.push_back(std::abs(Loudness(raised[row].bass) - Loudness(rows[row].bass)));
+    onset.push_back(std::abs(raised[row].onset - rows[row].onset));
+  }
+  EXPECT_LT(Mean(loud), 0.1);
+  EXPECT_LT(Mean(bass), 0.5);
+  EXPECT_LT(Mean(onset), 0.4);
+}
+
+TEST(MusicDynamicsTest, ADcOffsetIsSilent) {
+  const std::vector<RowSound> rows = RowsOf(std::vector<float>(20 * kRate, 0.5F));
+  EXPECT_NEAR(HearEnergy(rows), MusicDynamicsOptions().silent, 0.01);
+  const std::vector<float> energies = SongEnergies(rows);
+  for (size_t step = 3; step < energies.size(); ++step)
+    EXPECT_NEAR(energies[step], MusicDynamicsOptions().silent, 0.01) << step;
+}
+
 TEST(MusicDynamicsTest, DropExceedsPadAndSilenceIsLeast) {
   const auto energies =
       EnergiesOf(RowsOf(Joined({Pad(20), Drums(20), std::vector<float>(10 * kRate)})));

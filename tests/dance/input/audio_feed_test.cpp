@@ -49,11 +49,11 @@ TEST(AudioFeedTest, HearsNothingForAModelThatDoesNot) {
 }
 
 TEST(AudioFeedTest, KnowsSilenceAndChannelsThatCancelEachOther) {
-  const auto stereo = [](float left, float right, int64_t first_sample) {
+  const auto stereo = [](float left, float right, int64_t first_sample, float offset = 0) {
     AudioFeed feed(22050, 2, first_sample);
     std::vector<float> wave;
     for (const float level : Noise(22050, 5))
-      wave.insert(wave.end(), {left * level, right * level});
+      wave.insert(wave.end(), {left * level + offset, right * level - 0.5F * offset});
     feed.Push(wave, first_sample, [] {});
     return std::pair(feed.silent(), feed.cancels());
   };
@@ -63,6 +63,9 @@ TEST(AudioFeedTest, KnowsSilenceAndChannelsThatCancelEachOther) {
   EXPECT_EQ(stereo(1, -1, 0), std::pair(false, true));
   EXPECT_EQ(stereo(1, -0.999F, 0), std::pair(false, true));
   EXPECT_EQ(stereo(1, -1, 735), std::pair(false, false)) << "what came before is unknown";
+  EXPECT_EQ(stereo(0, 0, 0, 0.5F), std::pair(true, false)) << "a DC offset is no sound";
+  EXPECT_EQ(stereo(1, -1, 0, 0.5F), std::pair(false, true));
+  EXPECT_EQ(stereo(1, 1, 0, 0.5F), std::pair(false, false));
 }
 
 TEST(AudioFeedTest, RefusesPartialFramesAndNonFiniteSamples) {
