@@ -1,9 +1,9 @@
 // Measures beat tracking, without a shift between beats and songs: the F measure at 70 ms, from the
 // first second and from the tenth, for whole songs (FindBeats) and for predictions, either of a
 // live dance with transitions of 2 s (DanceMusic) or of `choreo live` (BeatEar). Songs have a tempo
-// map (SONG.beats beside SONG.ogg: seconds, one per line), or are synthetic, at every tempo and
-// metre, with known downbeats (files: each fourth beat of the map). An octave error is named and
-// counts half.
+// map (SONG.beats beside SONG.ogg, as `choreo --beats` reads it), or are synthetic, at every tempo
+// and metre, with known downbeats (maps without counts: each fourth beat). An octave error is named
+// and counts half.
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "bench/beat_patterns.h"
+#include "client/authoring/music/beat_file.h"
 #include "client/live/beat_ear.h"
 #include "client/live/live_dance.h"
 #include "client/live/sound.h"
@@ -25,6 +26,7 @@
 #include "model/audio/beats/beats.h"
 #include "model/audio/decode/decode.h"
 #include "model/audio/music/made_song.h"
+#include "model/core/error.h"
 #include "model/core/grid.h"
 #include "model/dance/delivery/beat_schedule.h"
 #include "model/dance/input/dance_music.h"
@@ -92,13 +94,6 @@ std::vector<double> HearByClient(const std::vector<float>& mono) {
   const double period = 60 / TempoOf(predicted);
   std::erase_if(predicted, [&](double beat) { return IsInSilence(onsets, beat, period); });
   return predicted;
-}
-
-std::vector<double> ReadSeconds(const std::filesystem::path& path) {
-  std::ifstream file(path);
-  std::vector<double> seconds;
-  for (double time = 0; file >> time;) seconds.push_back(time);
-  return seconds;
 }
 
 struct Judged {
@@ -236,9 +231,14 @@ void JudgeFiles(const std::vector<std::string>& songs, const std::string& libros
       continue;
     }
     song.mono = ToModelRate(DecodeAudioFile(path));
-    song.beats = ReadSeconds(map);
-    // As if the map began with a bar of four.
-    for (size_t i = 0; i < song.beats.size(); i += kDefaultBar)
+    bool counted = false;
+    for (const auto& [second, count] : authoring::ReadBeatFile(map)) {
+      counted = counted || count > 0;
+      song.beats.push_back(second);
+      if (count == 1) song.downbeats.push_back(second);
+    }
+    // Without counts as if the map began with a bar of four.
+    for (size_t i = 0; !counted && i < song.beats.size(); i += kDefaultBar)
       song.downbeats.push_back(song.beats[i]);
     if (golden.contains(song.name))
       song.librosa = BeatFMeasure(golden[song.name].get<std::vector<double>>(), song.beats);
@@ -325,8 +325,13 @@ int main(int argc, char** argv) {
     bench::PrintBarPatterns(*patterns, 60);
     return 0;
   }
-  bench::PrintHead();
-  bench::JudgeFiles(songs, librosa);
-  if (made) bench::JudgeMade(*made);
+  try {
+    bench::PrintHead();
+    bench::JudgeFiles(songs, librosa);
+    if (made) bench::JudgeMade(*made);
+  } catch (const Error& error) {
+    std::fprintf(stderr, "beats_bench: %s\n", error.what());
+    return 1;
+  }
   return 0;
 }

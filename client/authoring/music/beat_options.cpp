@@ -2,26 +2,19 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 #include <map>
-#include <sstream>
 
 #include "client/authoring/fields/notes.h"
+#include "client/authoring/music/beat_file.h"
 #include "model/audio/beats/same_tempo.h"
 #include "model/audio/signal/format.h"
 #include "model/core/error.h"
 #include "model/core/field.h"
-#include "model/core/printable.h"
 #include "model/core/rounded.h"
 
 namespace choreo::authoring {
 namespace {
-
-constexpr double kMaxSongSeconds = 1e6;  // of a song; the dance may use only a part
-constexpr std::streamsize kMaxLineLength = 1000;
 
 /// Extends the count in the bar from counted beats to the others.
 void CountOthers(BeatTrack* track) {
@@ -35,74 +28,16 @@ void CountOthers(BeatTrack* track) {
   CountOn(track);
 }
 
-/// A line of a beat file: the second and, if known, the count in the bar.
-struct BeatLine {
-  double second = 0;
-  int count = 0;  // 0: unknown
-};
-
-BeatLine ParseBeat(const std::string& line, const std::string& field) {
-  std::istringstream words(line);
-  std::string second, count, rest;
-  words >> second >> count >> rest;
-  BeatLine beat;
-  const auto read = [](const std::string& word, auto* number) {
-    const char* end = word.data() + word.size();
-    const auto [at, error] = std::from_chars(word.data(), end, *number);
-    return error == std::errc() && at == end;
-  };
-  if (!rest.empty() || !read(second, &beat.second) || !(beat.second >= 0) ||
-      beat.second > kMaxSongSeconds) {
-    throw InvalidArgument(field, '"' + Printable(line) +
-                                     "\" is not a beat: a second of the song, as in 12.5, and, if "
-                                     "known, its count in the bar");
-  }
-  if (!count.empty() &&
-      (!read(count, &beat.count) || beat.count < 1 || beat.count > kMaxBeatsInBar)) {
-    throw InvalidArgument(field, '"' + Printable(count) +
-                                     "\" is not a count in a bar, must be 1 to " +
-                                     std::to_string(kMaxBeatsInBar));
-  }
-  return beat;
-}
-
-/// Throws unless onsets tell a beat from the one before it.
-void RequireGap(double before, double beat, const std::string& field) {
-  if (beat - before >= 1 / kOnsetRate) return;
-  throw InvalidArgument(field, "is " + Rounded(beat - before) +
-                                   " s after the beat before it, must be 1/" + Rounded(kOnsetRate) +
-                                   " s or more");
-}
-
 BeatTrack ReadBeats(const std::string& path, double start) {
-  if (!std::filesystem::is_regular_file(path))
-    throw Error(ErrorCode::kNotFound, "beats", path + " is not a file");
-  std::ifstream file(path);
   BeatTrack track;
-  double last = -1;
   bool counted = true;
-  std::string line(kMaxLineLength, '\0');
-  for (int number = 1; file.getline(line.data(), kMaxLineLength) || file.gcount() > 0; ++number) {
-    const std::string field = path + ":" + std::to_string(number);
-    if (file.fail()) throw InvalidArgument(field, "is too long for the line of a beat");
-    std::string text = line.c_str();
-    if (number == 1 && text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);
-    text = text.substr(0, text.find('#'));
-    if (text.find_first_not_of(" \t\r") == std::string::npos) continue;
-    const BeatLine beat = ParseBeat(text, field);
-    RequireGap(last, beat.second, field);
-    last = beat.second;
-    if (track.frames.size() >= kMaxBeats)
-      throw InvalidArgument(field, "is beat " + std::to_string(kMaxBeats + 1) + ", the limit is " +
-                                       std::to_string(kMaxBeats));
-    if (beat.second < start) continue;
+  for (const WrittenBeat& beat : ReadBeatFile(path, start)) {
     track.frames.push_back(std::llround((beat.second - start) * kOnsetRate));
     track.in_bar.push_back(beat.count - 1);
     track.confidence.push_back(1);
     track.beats_in_bar = std::max(track.beats_in_bar, beat.count);
     counted = counted && beat.count > 0;
   }
-  if (last < 0) throw InvalidArgument("beats", path + " is empty, but for comments");
   RequireLeft(path, !track.frames.empty(), start);
   if (!counted) CountOthers(&track);
   return track;

@@ -6,12 +6,11 @@
 #include <string>
 #include <vector>
 
+#include "client/authoring/music/beat_file.h"
 #include "model/audio/beats/beat_hint.h"
 #include "model/audio/beats/beats.h"
 
 namespace choreo::authoring {
-
-inline constexpr int kMaxBeatsInBar = 16;  ///< people count no further
 
 /// Options that override the beat tracker.
 struct BeatOptions {
