@@ -271,6 +271,8 @@ BeatTrack TrackBeats(std::span<const Onset> onsets, const TempoLimits& limits, M
   BeatTrack track;
   std::vector<int> bars;
   const std::vector<bool> sounding = Sounding(onsets);
+  const int64_t end =
+      std::ssize(onsets) - (extent == MusicExtent::kWhole ? OnsetSums::kBeatFrames : 0);
   for (const Part& part : PartsOf(sounding)) {
     const auto part_onsets =
         onsets.subspan(static_cast<size_t>(part.begin), static_cast<size_t>(part.end - part.begin));
@@ -283,7 +285,8 @@ BeatTrack TrackBeats(std::span<const Onset> onsets, const TempoLimits& limits, M
     if (!mono.empty())
       CountByHarmony(mono.subspan(static_cast<size_t>(part.begin * kOnsetHop)), &path);
     std::erase_if(path, [&](const BarPointer::Step& step) {
-      return IsInPause(sounding, part.begin + step.frame, step.period);
+      const int64_t frame = part.begin + step.frame;
+      return frame >= end || IsInPause(sounding, frame, step.period);
     });
     const std::vector<bool> have_pulse = HavePulse(part_onsets, path);
     for (size_t i = 0; i < path.size(); ++i) {

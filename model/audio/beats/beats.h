@@ -40,10 +40,11 @@ enum class MusicExtent { kWhole, kPart };
 
 /// Finds a song's beats with the bar pointer model (BarPointer): the tempo, beats and bars that
 /// best explain all onsets. Tempo may drift or jump. Silence has no beats, except one a period
-/// after the last sound. After two seconds of silence, tracking starts anew. Drops beats and half
-/// beats no more distinct than noise's. Without onsets there are no beats, and the tempo is 0.
-/// `mono`: the samples of the onsets, whose harmony corrects the beginnings of bars
-/// (CountByHarmony); without them only drums determine these.
+/// after the last sound. A whole song's last 44 ms have none, because they end before one would be
+/// heard. After two seconds of silence, tracking starts anew. Drops beats and half beats no more
+/// distinct than noise's. Without onsets there are no beats, and the tempo is 0. `mono`: the
+/// samples of the onsets, whose harmony corrects the beginnings of bars (CountByHarmony); without
+/// them only drums determine these.
 BeatTrack TrackBeats(std::span<const Onset> onsets, const TempoLimits& limits = {},
                      MusicExtent extent = MusicExtent::kWhole, std::span<const float> mono = {});
 

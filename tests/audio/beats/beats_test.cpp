@@ -198,6 +198,16 @@ TEST(BeatsTest, AnIntroOfOneChordABarHasTheDrumsTempo) {
   }
 }
 
+// A beat was found 11 ms before the end, where the next kick would have been.
+TEST(BeatsTest, ASongHasNoneAtItsVeryEnd) {
+  for (const char* steps : {"k.", "kh", "k.s.", "khsh"}) {
+    for (const int per_song : {32, 40, 48}) {
+      const double period = 20.0 / per_song;
+      EXPECT_NEAR(FindBeats(Drums(0, period, steps)).Seconds().back(), 20 - period, 0.03) << steps;
+    }
+  }
+}
+
 // The search near half of the tempo gave the hats between the beats, or jumped from one to another.
 TEST(BeatsTest, AHintOfAMultipleOfTheTempoKeepsToTheBeats) {
   const std::vector<Onset> onsets = FindOnsets(Drums(0.2, 0.5, "khsh"));
