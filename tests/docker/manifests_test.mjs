@@ -264,6 +264,12 @@ test('Envoy bounds connections and what each may hold', () => {
   assert.ok(!('request_timeout' in manager));
 });
 
+test('manifests name the pages that say how to run them', () => {
+  const pageOf = (name, what) => readSource(read(name).match(/docs\/[a-z]+\.md(?= says)/)[0]).includes(what);
+  assert.ok(pageOf('kubernetes.yaml', 'create secret generic choreo-tls'));
+  assert.ok(pageOf('envoy.yaml', 'docker/envoy.yaml:/etc/envoy'));
+});
+
 test('the pages make the files that the manifests want', () => {
   const [serve, deploy, kubernetes, tls] = ['docs/serve.md', 'docs/deploy.md', 'docs/kubernetes.md', 'docker/compose.tls.yaml'].map(readSource);
   for (const file of ['tls.crt', 'tls.key', 'ca.crt', 'tokens']) {
