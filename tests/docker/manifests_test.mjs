@@ -174,13 +174,16 @@ test('alerts are PromQL on metrics and statuses that there are', () => {
     [...expr.matchAll(/job="([a-z]+)"/g)].forEach(([, job]) => assert.equal(job, ofKind('Service').metadata.name, alert));
     const refusals = readSource('server/messages/refusal.h');
     [...expr.matchAll(/connections_total\{reason="([a-z]+)"/g)].forEach(([, reason]) => assert.ok(refusals.includes(`"${reason}"`), reason));
-    [...expr.matchAll(/reason!~"([a-z_|]+)"/g)].flatMap(([, reasons]) => reasons.split('|'))
+    [...expr.matchAll(/calls_total\{reason!~"([a-z_|]+)"/g)].flatMap(([, reasons]) => reasons.split('|'))
         .forEach((reason) => assert.ok(refusals.includes(`"${reason}"`), reason));
     [...expr.matchAll(/status="([A-Z_]+)"/g)].forEach(([, status]) => assert.ok(statuses.includes(`"${status}"`), status));
   }
   ['choreo_draining', 'choreo_refused_calls_total', 'choreo_lateness_seconds_bucket', 'choreo_calls_total', 'choreo_utilisation', 'choreo_engine_failures',
     'choreo_last_reload_successful', 'choreo_header_floods_total', 'choreo_empty_frame_floods_total', 'choreo_certificate_expiry_timestamp_seconds', 'choreo_tls_handshake_failures_total']
       .forEach((name) => assert.ok(asked.has(name), `nobody is woken for ${name}`));
+  const scans = ['not_tls', 'timed_out']; // docs/runbook.md
+  assert.match(alerts.find(({alert}) => alert === 'ChoreoHandshakesFail').expr, new RegExp(`reason!~"${scans.join('\\|')}"`));
+  scans.forEach((reason) => assert.ok(readSource('server/connections/handshakes.h').includes(`"${reason}"`), reason));
   assert.equal(new Set(alerts.map(({alert}) => alert)).size, alerts.length);
 });
 
