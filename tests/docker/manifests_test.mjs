@@ -38,12 +38,12 @@ function* parts(value) {
 }
 
 test('every object that is applied is as its API wants it', async () => {
-  const kinds = ['Deployment', 'Service', 'HorizontalPodAutoscaler', 'PodDisruptionBudget', 'NetworkPolicy', 'ServiceMonitor',
+  const kinds = ['Deployment', 'Service', 'HorizontalPodAutoscaler', 'PodDisruptionBudget', 'NetworkPolicy', 'PodMonitor',
     'PrometheusRule'];
   assert.deepEqual(objects.map((object) => object.kind), kinds);
   for (const object of objects) await validate(object);
   await assert.rejects(validate({...ofKind('Deployment'), spec: {replicas: 'two'}}));
-  await assert.rejects(validate({...ofKind('ServiceMonitor'), spec: {endpoints: 'metrics'}}));
+  await assert.rejects(validate({...ofKind('PodMonitor'), spec: {podMetricsEndpoints: 'metrics'}}));
 });
 
 test('the image has a registry and the tag of this release', () => {
@@ -115,11 +115,12 @@ test('the metrics that others ask for are those that there are', () => {
 });
 
 test('the monitor finds where the pods show their metrics', () => {
-  const {selector, endpoints: [endpoint]} = ofKind('ServiceMonitor').spec;
-  assert.deepEqual(selector.matchLabels, ofKind('Service').metadata.labels);
-  const {targetPort, port} = ofKind('Service').spec.ports.find(({name}) => name === endpoint.port);
-  const {containerPort} = container.ports.find(({name}) => name === targetPort);
-  assert.equal(port, containerPort);
+  // A service forgets pods that are deleted, so it would show none that drains.
+  const {jobLabel, selector, podMetricsEndpoints: [endpoint]} = ofKind('PodMonitor').spec;
+  const {labels} = ofKind('Deployment').spec.template.metadata;
+  assert.deepEqual(selector.matchLabels, labels);
+  assert.equal(labels[jobLabel], ofKind('Service').metadata.name); // the job of the alerts
+  const {containerPort} = container.ports.find(({name}) => name === endpoint.port);
   assert.ok(setting('CHOREO_METRICS').endsWith(`:${containerPort}`));
   assert.ok(metricSource.includes(`"${endpoint.path}"`));
   const allowed = ofKind('NetworkPolicy').spec.ingress.flatMap((rule) => rule.ports.map((open) => open.port));
@@ -139,7 +140,7 @@ test('without the operator the alerts come from a job of the same name', () => {
 
 test('each pod is scraped once', () => {
   const {annotations = {}} = ofKind('Deployment').spec.template.metadata;
-  assert.ok(ofKind('ServiceMonitor') && !Object.keys(annotations).some((name) => name.startsWith('prometheus.io/')));
+  assert.ok(ofKind('PodMonitor') && !Object.keys(annotations).some((name) => name.startsWith('prometheus.io/')));
 });
 
 test('clients of labelled namespaces reach the pods', () => {
