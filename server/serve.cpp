@@ -6,10 +6,14 @@
 #include <ucontext.h>
 #include <unistd.h>
 
+#include <condition_variable>
 #include <cstdlib>
 #include <ctime>
 #include <functional>
 #include <iostream>
+#include <memory>
+#include <mutex>
+#include <optional>
 #include <stop_token>
 #include <string>
 #include <thread>
@@ -47,15 +51,25 @@ sigset_t SetOf(std::initializer_list<int> signals) {
 class LeaveAtOnce {
  public:
   /// While models load: SIGHUP waits for the server.
-  LeaveAtOnce() : LeaveAtOnce(SetOf({SIGTERM, SIGINT}), [] {}) {}
+  LeaveAtOnce() : LeaveAtOnce(SetOf({SIGTERM, SIGINT}), [] {}) { Begin(); }
   /// While the server drains. `last`: runs before the exit.
   explicit LeaveAtOnce(std::function<void()> last)
       : LeaveAtOnce(SetOf({SIGTERM, SIGINT, SIGHUP}), std::move(last)) {}
+
+  void Begin() {
+    const std::lock_guard lock(mutex_);
+    begun_ = true;
+    wake_.notify_all();
+  }
 
  private:
   LeaveAtOnce(sigset_t asked, std::function<void()> last)
       : thread_([asked, last = std::move(last)](const std::stop_token& stop) {
           constexpr timespec kLook{.tv_sec = 0, .tv_nsec = 20'000'000};
+          {
+            std::unique_lock lock(mutex_);
+            if (!wake_.wait(lock, stop, [this] { return begun_; })) return;
+          }
           while (!stop.stop_requested()) {
             const int signal = sigtimedwait(&asked, nullptr, &kLook);
             if (signal <= 0) continue;
@@ -70,7 +84,10 @@ class LeaveAtOnce {
           }
         }) {}
 
-  std::jthread thread_;
+  std::mutex mutex_;
+  std::condition_variable_any wake_;
+  bool begun_ = false;   // lock: mutex_
+  std::jthread thread_;  // last, because it uses the members above
 };
 
 std::vector<Server::Samplers> LoadAll(const ServerConfig& config, ModelFolder& folder,
@@ -140,6 +157,8 @@ void Serve(const ServerConfig& config, const ModelFolder::Loader& load,
     return;
   }
   Server server(config, std::move(models));
+  // Its thread is made before anybody calls: a stop must not need one that the system refuses.
+  std::optional<LeaveAtOnce> leave(std::in_place, [&server] { server.GiveUp(); });
   // Programs that start a choreod wait for this line.
   const std::string line = "choreod listens on " + SplitAddress(config.listen).host + ':' +
                            std::to_string(server.port());
@@ -155,10 +174,9 @@ void Serve(const ServerConfig& config, const ModelFolder::Loader& load,
   spdlog::info("{}: draining for up to {} s; again to exit immediately", strsignal(signal),
                drain_seconds);
   TellManagerOfDrain(drain_seconds);
-  {
-    const LeaveAtOnce leave([&server] { server.GiveUp(); });
-    server.Drain(drain_seconds);
-  }
+  leave->Begin();
+  server.Drain(drain_seconds);
+  leave.reset();
   if (reloader.loads()) Leave();
 }
 

@@ -43,8 +43,8 @@ class ServeTest : public testing::Test {
     ended_ = std::async(std::launch::async, [=, this] {
       // The program has the number that its shell had, behind a pipe, too.
       return Shell("{ sh -c 'echo $$ > \"$0\"; exec \"$@\"' '" + (folder_ / "process").string() +
-                   "' " FAKE_CHOREOD " --listen " + listen + " --log-format json " + settings +
-                   " > '" + (folder_ / "said").string() + "'; }" +
+                   "' " + starter_ + FAKE_CHOREOD " --listen " + listen + " --log-format json " +
+                   settings + " > '" + (folder_ / "said").string() + "'; }" +
                    (reader.empty() ? "" : " 2>&1 | " + reader));
     });
   }
@@ -92,6 +92,7 @@ class ServeTest : public testing::Test {
   }
 
   TemporaryFolder folder_;
+  std::string starter_;  // what runs the program
 
  private:
   pid_t process_ = -1;
@@ -301,6 +302,26 @@ TEST_F(ServeTest, StopsAtOnceWhenSignalledTwice) {
   EXPECT_THAT(outcome.said,
               ContainsRegex("\"method\":\"StreamDance\".*\"status\":\"UNAVAILABLE\""));
   EXPECT_THAT(outcome.said, HasSubstr("the server was told to exit immediately"));
+}
+
+// A stranger's calls, or other programs, may take the last thread that the system allows.
+TEST_F(ServeTest, DrainsWithoutAnotherThread) {
+  if (geteuid() == 0) starter_ = "setpriv --reuid=64123 --clear-groups ";  // root has no limit
+  Start("--drain-seconds 60");
+  AwaitListening();
+  const client::Client client({.addresses = {address()}, .retry_s = 0});
+  const auto dance = client.StartDance({.frames = 30, .generate_until = 0});
+  dance->GenerateUntil(10);
+  ASSERT_TRUE(dance->Next());
+  const Outcome limited = Shell(starter_ + "prlimit --nproc=1:1 --pid " + Read("process"));
+  ASSERT_EQ(limited.code, 0) << limited.said;
+  Send(SIGTERM);
+  ExpectEventually([&] { return !client.IsServing(); }, "it drains");
+  dance->CompleteKeys();
+  while (dance->Next()) continue;
+  const Outcome outcome = End();
+  EXPECT_EQ(outcome.code, 0) << outcome.said;
+  EXPECT_THAT(outcome.said, HasSubstr("served 1 call"));
 }
 
 /// The part of systemd that receives a service's notifications.
