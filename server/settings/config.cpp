@@ -195,6 +195,8 @@ class Reading {
       config.Check();
     });
     faults.Throw();
+    if (app_.count("--reflection") == 0)
+      config.reflection = config.tls_certificate.empty() && config.tokens.empty();
     config.given = GivenIn(app_);
     config.overridden = file_->overridden();
   } catch (const CLI::Success&) {

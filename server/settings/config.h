@@ -44,7 +44,7 @@ struct ServerConfig {
   std::filesystem::path tls_client_ca;    ///< PEM; empty: clients need no certificate
   std::filesystem::path tokens;           ///< allowed callers (Tokens); empty: everybody
   bool insecure = false;                  ///< allow connections from other machines without TLS
-  bool reflection = true;                 ///< clients may query the API's schema
+  bool reflection = true;                 ///< clients may query the API's schema, without a token
   std::string log_level = "info";         ///< trace, debug, info, warning, error, critical, off
   std::string log_format = "text";        ///< text, json
   bool check = false;                     ///< only report whether it could serve

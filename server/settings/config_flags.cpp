@@ -177,14 +177,18 @@ void AddSecurity(CLI::App& app, ServerConfig& config) {
   app.add_option(
          "--tokens", config.tokens,
          "File of lines \"SHA256 NAME\". Calls must send the token of one line as \"authorization: "
-         "Bearer TOKEN\"; health checks need none. The file is read again when it changes.")
+         "Bearer TOKEN\"; health checks need none, nor does --reflection. The file is read again "
+         "when "
+         "it changes.")
       ->envname("CHOREO_TOKENS");
   app.add_flag("--insecure", config.insecure,
                "Listen beyond this machine without TLS. Everybody on the way can then read and "
                "change messages: only for networks that are secured otherwise.")
       ->envname("CHOREO_INSECURE");
-  app.add_flag("--reflection,!--no-reflection", config.reflection,
-               "Describe the API to clients (gRPC's reflection). On by default.")
+  app.add_flag(
+         "--reflection,!--no-reflection", config.reflection,
+         "Describe the API to clients (gRPC's reflection), who need no token for it. Default: "
+         "on, but off with --tls-cert or --tokens.")
       ->envname("CHOREO_REFLECTION");
 }
 

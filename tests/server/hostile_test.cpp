@@ -1,5 +1,6 @@
 #include <gmock/gmock.h>
 #include <signal.h>
+#include <unistd.h>
 
 #include <atomic>
 #include <fstream>
@@ -8,6 +9,7 @@
 
 #include "server/connections/frame_guard.h"
 #include "server/connections/listener.h"
+#include "server/process/process_usage.h"
 #include "tests/server/fixture.h"
 #include "tests/server/http2.h"
 #include "tests/server/real_time.h"
@@ -66,10 +68,12 @@ TEST_F(HostileTest, AMessageOf4GiBTakesNoMemory) {
   std::cout << "memory grew by " << (grown >> 10) << " KiB\n";
 }
 
-// The callers of gRPC's own services are unknown: such calls end no connection, and the server
-// keeps listening.
+// The callers of gRPC's own services are unknown: such calls end no connection, the server keeps
+// listening, and it keeps threads for others.
 TEST_F(HostileTest, IdleReflectionClosesNoConnection) {
   Start(1);
+  SlowestDanceDuring([] {});
+  const int64_t before = Threads(getpid());
   constexpr int kConnections = 8, kCalls = 100;
   std::vector<std::unique_ptr<Http2>> open;
   for (int i = 0; i < kConnections; ++i) {
@@ -80,6 +84,7 @@ TEST_F(HostileTest, IdleReflectionClosesNoConnection) {
     }
   }
   SlowestDanceDuring([] {});
+  EXPECT_LT(Threads(getpid()) - before, kCalls / 2);
   grpc::ClientContext context;
   v1::GetServerInfoResponse info;
   const auto newcomer = StubOfAnotherAddress(server->port());

@@ -344,6 +344,20 @@ TEST(ServerConfigTest, EnvironmentSetsFlags) {
   EXPECT_TRUE(Parse({}).config->reflection);
 }
 
+// Reflection asks nobody for a token.
+TEST(ServerConfigTest, WhoDemandsTokensOrTlsReflectsOnlyIfAsked) {
+  const std::string file = testing::TempDir() + "choreod_config_secret_test";
+  std::ofstream(file) << "content";
+  for (const std::vector<const char*>& secrets :
+       {std::vector<const char*>{"--tokens", file.c_str()},
+        {"--tls-cert", file.c_str(), "--tls-key", file.c_str()}}) {
+    EXPECT_FALSE(Parse(secrets).config->reflection);
+    std::vector<const char*> asked = secrets;
+    asked.push_back("--reflection");
+    EXPECT_TRUE(Parse(asked).config->reflection);
+  }
+}
+
 // An ignored variable would be a limit or a protection that is missing.
 TEST(ServerConfigTest, RefusesAMisspeltVariable) {
   const auto said = [](const char* variable, bool starts) {
