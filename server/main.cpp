@@ -33,14 +33,13 @@ void WarnOfUnusedSettings(const ServerConfig& config, const Sampler& sampler) {
 }
 
 ModelFolder::Loader MakeLoader(const ServerConfig& config) {
-  const std::vector<Device> devices = ParseDevices(config.device, TorchDevices());
-  // A small network cannot keep several cores busy, so each core gets a worker.
-  std::vector<Device> workers = devices;
-  if (devices.front().kind == Device::Kind::kCpu) {
-    const int count = config.workers == 0 ? UsableCores() : config.workers;
-    workers.assign(static_cast<size_t>(count), devices.front());
-  }
-  return [&config, workers](const std::filesystem::path& path) {
+  return [&config](const std::filesystem::path& path) {
+    std::vector<Device> workers = ParseDevices(config.device, TorchDevices());
+    // A small network cannot keep several cores busy, so each core gets a worker.
+    if (const Device first = workers.front(); first.kind == Device::Kind::kCpu) {
+      const int count = config.workers == 0 ? UsableCores() : config.workers;
+      workers.assign(static_cast<size_t>(count), first);
+    }
     std::vector<std::string> notes;
     Server::Samplers samplers =
         MakeSamplers(path, workers, ParseEngineKind(config.engine), config.kernels, &notes);
@@ -79,7 +78,8 @@ int main(int argc, char** argv) {
     choreo::Run(*command_line.config, [&] { return choreo::RereadConfig(argc, argv); });
     return 0;
   } catch (const std::exception& error) {
-    for (const std::string& fault : choreo::FaultsIn(error.what())) spdlog::critical("{}", fault);
+    for (const std::string& fault : choreo::FaultsIn(error.what()))
+      spdlog::critical("{}", command_line.config->Placed(fault));
     return choreo::ExitCodeOf(error);
   }
 }

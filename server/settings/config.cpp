@@ -78,14 +78,14 @@ void CheckSecurity(const ServerConfig& config, FaultList* faults) {
 
 // An empty file name in a script is usually an unset variable. Without this check the server would
 // start unprotected.
-void RequireNoEmptyFile(const CLI::App& app) {
+void CheckFileNames(const CLI::App& app, FaultList* faults) {
   for (const char* name : {"--tls-cert", "--tls-key", "--tls-client-ca", "--tokens"}) {
     const CLI::Option* option = app.get_option(name);
     const char* variable = std::getenv(option->get_envname().c_str());
     const bool empty = option->count() == 0
                            ? variable != nullptr && *variable == '\0'
                            : std::ranges::any_of(option->results(), &std::string::empty);
-    if (empty) throw InvalidArgument(name, "is empty; leave it out for none");
+    if (empty) faults->Add(InvalidArgument(name, "is empty; leave it out for none"));
   }
 }
 
@@ -187,22 +187,27 @@ class Reading {
   /// Error(kInvalidArgument), with a line for each bad setting, and CLI::Success for --help and
   /// --version.
   void Read() try {
-    app_.parse(argc_, argv_);
     FaultList faults;
+    try {
+      app_.parse(argc_, argv_);
+    } catch (const CLI::Success&) {
+      throw;
+    } catch (const CLI::ParseError& error) {
+      AddFaults(app_, error, &faults);
+    }
+    faults.Add(file_->faults());
     unknown = CheckVariables(app_, &faults);
-    faults.Try([&] {
-      RequireNoEmptyFile(app_);
-      config.Check();
-    });
+    CheckFileNames(app_, &faults);
+    CheckValues(&faults);
     faults.Throw();
     if (app_.count("--reflection") == 0)
       config.reflection = config.tls_certificate.empty() && config.tokens.empty();
     config.given = GivenIn(app_);
     config.overridden = file_->overridden();
-  } catch (const CLI::Success&) {
-    throw;
-  } catch (const CLI::ParseError& error) {
-    throw Placed(InOurWords(app_, *file_, error));
+    for (const auto& [flag, value] : config.given) {
+      if (std::ranges::find(config.overridden, flag) == config.overridden.end())
+        config.places["--" + flag] = file_->PlaceOf(flag);
+    }
   } catch (const Error& error) {
     throw Placed(error.what());
   }
@@ -213,6 +218,15 @@ class Reading {
   std::vector<std::string> unknown;
 
  private:
+  // CLI11 sets a number that it cannot convert to 0, so settings with a fault are not checked.
+  void CheckValues(FaultList* faults) const try { config.Validate(); } catch (const Error& error) {
+    const FaultList before = *faults;
+    for (const std::string& fault : FaultsIn(error.what())) {
+      const std::string setting = fault.substr(0, fault.find(':') + 1);
+      if (!before.HasOneOf(setting)) faults->Add({ErrorCode::kInvalidArgument, "", fault});
+    }
+  }
+
   Error Placed(const std::string& what) const {
     std::vector<std::string> faults = FaultsIn(what);
     for (std::string& fault : faults) fault.insert(0, PlaceInFile(fault, *file_, argc_, argv_));
@@ -232,6 +246,11 @@ class Reading {
 
 std::string ServerConfig::MetricsAddress() const {
   return metrics.find(':') == std::string::npos ? "127.0.0.1:" + metrics : metrics;
+}
+
+std::string ServerConfig::Placed(const std::string& fault) const {
+  const auto place = places.find(fault.substr(0, fault.find(':')));
+  return (place == places.end() ? "" : place->second) + fault;
 }
 
 void ServerConfig::Check() const {

@@ -86,16 +86,13 @@ std::string Miscounted(const std::string& said) {
   return flag + ": " + said.substr(at + kReceived.size()) + " values are more than 1";
 }
 
-/// The error for a setting `name` that does not exist.
-std::string Unknown(const CLI::App& app, const std::string& where, const std::string& name) {
-  Nearest meant(name);
-  for (const CLI::Option* option : app.get_options()) {
-    const std::string known = option->get_name();
-    meant.Offer(name.starts_with("--") ? known : known.substr(2));
-  }
-  return where + "no setting is called \"" + name + "\"; " +
-         (meant.nearest().empty() ? "choreod --help lists them"
-                                  : "did you mean " + meant.nearest() + "?");
+/// Rewrites a CLI11 error about one setting.
+std::string InOurWords(const CLI::ParseError& error) {
+  const std::string said = error.what();
+  if (dynamic_cast<const CLI::ConversionError*>(&error)) return Unconverted(said);
+  if (dynamic_cast<const CLI::ArgumentMismatch*>(&error)) return Miscounted(said);
+  if (dynamic_cast<const CLI::FileError*>(&error)) return said;  // FaultOfFile's
+  return said + "; see --help";
 }
 
 }  // namespace
@@ -115,24 +112,37 @@ void CheckNumbers(const ServerConfig& config, FaultList* faults) {
   }
 }
 
-std::string InOurWords(const CLI::App& app, const TomlFile& file, const CLI::ParseError& error) {
-  const std::string said = error.what();
-  if (dynamic_cast<const CLI::ConversionError*>(&error)) return Unconverted(said);
-  if (dynamic_cast<const CLI::ArgumentMismatch*>(&error)) return Miscounted(said);
-  if (dynamic_cast<const CLI::FileError*>(&error)) return said;  // FaultOfFile's
-  if (dynamic_cast<const CLI::ConfigError*>(&error)) {           // "INI was not able to parse KEY"
-    const std::string key = said.substr(said.rfind(' ') + 1);
-    // "check: This option is not allowed in a configuration file"
-    if (const size_t end = said.find(": This option is not allowed"); end != std::string::npos) {
-      const std::string name = said.substr(0, end);
-      return file.PlaceOf(name) + name + " is a flag only";
+std::string UnknownSetting(const CLI::App& app, const std::string& name) {
+  Nearest meant(name);
+  for (const CLI::Option* option : app.get_options()) {
+    const std::string known = option->get_name();
+    meant.Offer(name.starts_with("--") ? known : known.substr(2));
+  }
+  return "no setting is called \"" + name + "\"; " +
+         (meant.nearest().empty() ? "choreod --help lists them"
+                                  : "did you mean " + meant.nearest() + "?");
+}
+
+void AddFaults(CLI::App& app, const CLI::ParseError& error, FaultList* faults) {
+  const auto add = [&](const std::string& fault) {
+    faults->Add({ErrorCode::kInvalidArgument, "", fault});
+  };
+  if (!dynamic_cast<const CLI::ExtrasError*>(&error)) add(InOurWords(error));
+  // CLI11 stops at the first value that it cannot convert.
+  for (CLI::Option* option : app.get_options()) {
+    try {
+      if (option->count() > 0) option->run_callback();
+    } catch (const CLI::Success&) {
+      throw;
+    } catch (const CLI::ParseError& other) {
+      add(InOurWords(other));
     }
-    return Unknown(app, file.PlaceOf(key), key);
   }
   const std::vector<std::string> extra = app.remaining();
-  if (dynamic_cast<const CLI::ExtrasError*>(&error) && !extra.empty())
-    return Unknown(app, "", extra.front());
-  return said + "; see --help";
+  const auto is_flag = [](const std::string& word) { return word.starts_with('-'); };
+  // Words after an unknown flag are probably its values.
+  for (size_t i = 0; i < extra.size(); ++i)
+    if (i == 0 || is_flag(extra[i])) add(UnknownSetting(app, extra[i]));
 }
 
 }  // namespace choreo

@@ -4,7 +4,6 @@
 #include <string>
 
 #include "server/settings/config.h"
-#include "server/settings/config_file.h"
 #include "server/settings/fault_list.h"
 
 namespace choreo {
@@ -12,8 +11,12 @@ namespace choreo {
 /// Finds numbers outside their ranges.
 void CheckNumbers(const ServerConfig& config, FaultList* faults);
 
-/// Rewrites a CLI11 error about a command line or a file in the form of our own errors: the
-/// setting, its value, and what is allowed.
-std::string InOurWords(const CLI::App& app, const TomlFile& file, const CLI::ParseError& error);
+/// Adds what is wrong with a command line and the values in a file, after `app` has found an error
+/// in them, in the form of our own errors: the setting, its value, and what is allowed. Settings
+/// without a fault are set nevertheless.
+void AddFaults(CLI::App& app, const CLI::ParseError& error, FaultList* faults);
+
+/// The fault of a setting `name` that does not exist.
+std::string UnknownSetting(const CLI::App& app, const std::string& name);
 
 }  // namespace choreo

@@ -2,11 +2,13 @@
 
 #include <toml++/toml.h>
 
+#include <algorithm>
 #include <iterator>
 #include <regex>
 #include <sstream>
 
 #include "model/core/error.h"
+#include "server/settings/config_errors.h"
 
 namespace choreo {
 namespace {
@@ -50,36 +52,61 @@ std::vector<CLI::ConfigItem> TomlFile::from_config(std::istream& input) const {
     table = toml::parse(text);
   } catch (const toml::parse_error& error) {
     const size_t line = error.source().begin.line;
-    throw InvalidArgument(At(line), MissingMarks(text, line) + std::string(error.description()));
+    faults_.Add(
+        InvalidArgument(At(line), MissingMarks(text, line) + std::string(error.description())));
+    return {};
   }
   // It may be unfinished, and all its settings would silently be the defaults.
   if (table.empty())
-    throw InvalidArgument("--config", app_.get_config_ptr()->as<std::string>() +
-                                          " sets nothing; leave --config out for the defaults");
-  std::vector<CLI::ConfigItem> settings;
+    faults_.Add(
+        InvalidArgument("--config", app_.get_config_ptr()->as<std::string>() +
+                                        " sets nothing; leave --config out for the defaults"));
   for (const auto& [key, node] : table) {
     CLI::ConfigItem item;
     item.name = key.str();
     const size_t line = key.source().begin.line;
     lines_[item.name] = line;
-    const CLI::Option* option = app_.get_option_no_throw("--" + item.name);
-    if (option != nullptr && option->count() > 0) overridden_.push_back(item.name);
-    const auto add = [&](const toml::node& value) {
-      if (value.is_table() || value.is_array() || value.is_date() || value.is_time() ||
-          value.is_date_time())
-        throw InvalidArgument(At(line), '"' + item.name +
-                                            "\" is neither a text, a number, true nor false, nor "
-                                            "a list of them; there are no sections");
-      item.inputs.push_back(TextOf(value));
+    const auto fault = [&](const std::string& what) {
+      faults_.Add({ErrorCode::kInvalidArgument, "", At(line) + ": " + what});
     };
-    if (const toml::array* list = node.as_array()) {
-      for (const toml::node& value : *list) add(value);
-    } else {
-      add(node);
+    CLI::Option* option = app_.get_option_no_throw("--" + item.name);
+    if (option == nullptr) {
+      fault(UnknownSetting(app_, item.name));
+      continue;
     }
-    if (!item.inputs.empty()) settings.push_back(std::move(item));
+    if (!option->get_configurable()) {
+      fault(item.name + " is a flag only");
+      continue;
+    }
+    if (option->count() > 0) {
+      overridden_.push_back(item.name);
+      continue;
+    }
+    const auto add = [&](const toml::node& value) {
+      const bool is_value = value.is_string() || value.is_number() || value.is_boolean();
+      if (is_value) item.inputs.push_back(TextOf(value));
+      return is_value;
+    };
+    const toml::array* list = node.as_array();
+    if (!(list ? std::all_of(list->begin(), list->end(), add) : add(node))) {
+      fault('"' + item.name +
+            "\" is neither a text, a number, true nor false, nor a list of them; there are no "
+            "sections");
+    } else if (!item.inputs.empty()) {
+      Set(item, option);
+    }
   }
-  return settings;
+  return {};
+}
+
+void TomlFile::Set(const CLI::ConfigItem& item, CLI::Option* option) const try {
+  if (option->get_expected_min() == 0) {
+    option->add_result(option->get_flag_value(item.name, to_flag(item)));
+  } else {
+    option->add_result(item.inputs);
+  }
+} catch (const CLI::ParseError& error) {
+  faults_.Add({ErrorCode::kInvalidArgument, "", PlaceOf(item.name) + error.what()});
 }
 
 std::string TomlFile::PlaceOf(const std::string& setting) const {

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <algorithm>
 #include <sstream>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "model/core/error.h"
@@ -19,7 +21,21 @@ class FaultList {
       Add(error);
     }
   }
-  void Add(const Error& fault) { faults_.push_back(fault); }
+  /// Ignores a fault that is in the list already, because several models can have one in common.
+  void Add(const Error& fault) {
+    const auto is_same = [&](const Error& one) { return std::string(one.what()) == fault.what(); };
+    if (std::ranges::none_of(faults_, is_same)) faults_.push_back(fault);
+  }
+  void Add(const FaultList& others) {
+    for (const Error& fault : others.faults_) Add(fault);
+  }
+
+  /// Whether the text of a fault begins so, as in "--workers:".
+  bool HasOneOf(const std::string& beginning) const {
+    return std::ranges::any_of(faults_, [&](const Error& one) {
+      return std::string_view(one.what()).starts_with(beginning);
+    });
+  }
 
   /// Throws if there are faults: a single fault as it is, several as one Error with a line for each
   /// and the first one's code.

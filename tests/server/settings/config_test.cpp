@@ -233,6 +233,38 @@ TEST(ServerConfigTest, NamesEachOfSeveralFaults) {
   EXPECT_EQ(std::ranges::count(said, '\n'), 5) << said;
 }
 
+// A fault that ends CLI11's reading hides no other.
+TEST(ServerConfigTest, NamesFaultsBesideThoseOfCli11) {
+  const std::string path = testing::TempDir() + "choreod_config_all_test.toml";
+  const auto expect = [&](const std::vector<const char*>& arguments,
+                          const std::vector<std::string>& faults) {
+    testing::internal::CaptureStderr();
+    EXPECT_EQ(Parse(arguments).exit_code, 2);
+    const std::string said = testing::internal::GetCapturedStderr();
+    for (const std::string& fault : faults)
+      EXPECT_THAT(said, testing::HasSubstr("choreod: " + fault));
+    EXPECT_EQ(static_cast<size_t>(std::ranges::count(said, '\n')), faults.size()) << said;
+  };
+  std::ofstream(path) << "workers = -1\nlog-level = \"loud\"\nmax-load = \"x\"\nkernels = \"foo\"\n"
+                         "drain-seconds = 9999\nnosuch = 4\nio-threads = [1, 2]\ncheck = true\n"
+                         "threads = 2000-01-01\n";
+  expect(
+      {"--config", path.c_str(), "--max-streams", "many"},
+      {path + ":1: --workers: -1 is not in", path + ":2: --log-level: \"loud\" is none of",
+       path + ":3: --max-load: \"x\" is not a number", path + ":4: --kernels: \"foo\" is none",
+       path + ":5: --drain-seconds: 9999 is not in", path + ":6: no setting is called \"nosuch\"",
+       path + ":7: --io-threads: 2 values are more than 1", path + ":8: check is a flag only",
+       path + ":9: \"threads\" is neither", "--max-streams: \"many\" is not a whole number"});
+  expect({"--nosuch", "4", "--neither", "--workers", "many", "--kernels", "foo", "--outbox-kib"},
+         {"no setting is called \"--nosuch\"", "no setting is called \"--neither\"",
+          "--workers: \"many\" is not", "--kernels: \"foo\" is none of",
+          "--outbox-kib: has no value"});
+  std::ofstream(path) << "listen = 127.0.0.1:0\n";
+  expect({"--config", path.c_str(), "--tokens", "", "--workers", "-1"},
+         {path + ":1: listen: texts need quotation marks", "--tokens: is empty",
+          "--workers: -1 is not in"});
+}
+
 // A server that should require tokens does not start without them.
 TEST(ServerConfigTest, RefusesAnEmptyFileName) {
   const std::string path = testing::TempDir() + "choreod_config_empty_test.toml";
