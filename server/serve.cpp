@@ -47,7 +47,7 @@ sigset_t SetOf(std::initializer_list<int> signals) {
   std::_Exit(0);
 }
 
-/// While this object exists, stop signals end choreod at once.
+/// From Begin until this object ends, stop signals end choreod at once.
 class LeaveAtOnce {
  public:
   /// While models load: SIGHUP waits for the server.
@@ -64,7 +64,7 @@ class LeaveAtOnce {
 
  private:
   LeaveAtOnce(sigset_t asked, std::function<void()> last)
-      : thread_([asked, last = std::move(last)](const std::stop_token& stop) {
+      : thread_([this, asked, last = std::move(last)](const std::stop_token& stop) {
           constexpr timespec kLook{.tv_sec = 0, .tv_nsec = 20'000'000};
           {
             std::unique_lock lock(mutex_);
@@ -104,11 +104,18 @@ std::vector<Server::Samplers> LoadAll(const ServerConfig& config, ModelFolder& f
   return models;
 }
 
-// Reports addresses in use before loading models, which takes seconds.
-void RequireAddresses(const ServerConfig& config) {
-  const Listener serving(config.listen);
-  if (config.metrics.empty()) return;
-  const Listener figures(config.MetricsAddress(), "--metrics");
+// Reports unusable addresses before loading models, which takes seconds. When asked to check, a
+// running server has them in use.
+void CheckAddresses(const ServerConfig& config, FaultList* faults) {
+  std::vector<std::unique_ptr<Listener>> taken;  // so that each finds those of the others in use
+  const auto check = [&](const std::string& address, const std::string& field) {
+    faults->Try([&] {
+      if (config.check) return RequireOwnAddress(address, field);
+      taken.push_back(std::make_unique<Listener>(address, field));
+    });
+  };
+  check(config.listen, "--listen");
+  if (!config.metrics.empty()) check(config.MetricsAddress(), "--metrics");
 }
 
 // Finds unusable files of secrets before loading models, too.
@@ -145,8 +152,8 @@ void HoldSignals() {
 void Serve(const ServerConfig& config, const ModelFolder::Loader& load,
            const SettingsReader& reread) {
   ModelFolder folder(config.models, load);
-  if (!config.check) RequireAddresses(config);  // a running server has them in use
   FaultList faults;
+  CheckAddresses(config, &faults);
   CheckSecrets(config, &faults);
   if (!config.check) faults.Throw();
   std::vector<Server::Samplers> models;

@@ -28,8 +28,20 @@ constexpr int kAtATime = 256;  // connections accepted between checks for a stop
 constexpr std::chrono::seconds kBetweenReports{1};
 constexpr int kPauseMs = 100;  // before retrying accept without free descriptors
 
-Error CannotListen(const std::string& field, const std::string& address, const char* why) {
-  return {ErrorCode::kUnavailable, field, '"' + address + "\" cannot be listened on: " + why};
+/// `wrong`: it can never be listened on here, so no restart mends it.
+Error CannotListen(const std::string& field, const std::string& address, const char* why,
+                   bool wrong) {
+  return {wrong ? ErrorCode::kInvalidArgument : ErrorCode::kUnavailable, field,
+          '"' + address + "\" cannot be listened on: " + why};
+}
+
+Error Unresolved(const std::string& field, const std::string& address, int why) {
+  // A name server may answer later.
+  return CannotListen(field, address, gai_strerror(why), why != EAI_AGAIN && why != EAI_SYSTEM);
+}
+
+Error Unbound(const std::string& field, const std::string& address, int why) {
+  return CannotListen(field, address, std::strerror(why), why == EADDRNOTAVAIL);
 }
 
 struct Addresses {
@@ -75,14 +87,32 @@ int PortOf(int socket) {
                    : reinterpret_cast<const sockaddr_in&>(address).sin_port);
 }
 
+void SetPort(const addrinfo& at, int port) {
+  if (at.ai_addr->sa_family == AF_INET6) {
+    reinterpret_cast<sockaddr_in6*>(at.ai_addr)->sin6_port = htons(static_cast<uint16_t>(port));
+  } else {
+    reinterpret_cast<sockaddr_in*>(at.ai_addr)->sin_port = htons(static_cast<uint16_t>(port));
+  }
+}
+
 /// Returns -1 and sets errno on failure.
-int Listen(const addrinfo& at) {
+int Bind(const addrinfo& at) {
   const int fd = socket(at.ai_family, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
   if (fd < 0) return -1;
   const int on = 1, off = 0;
   setsockopt(fd, SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
   if (at.ai_family == AF_INET6) setsockopt(fd, IPPROTO_IPV6, IPV6_V6ONLY, &off, sizeof off);
-  if (bind(fd, at.ai_addr, at.ai_addrlen) == 0 && listen(fd, SOMAXCONN) == 0) return fd;
+  if (bind(fd, at.ai_addr, at.ai_addrlen) == 0) return fd;
+  const int why = errno;
+  close(fd);
+  errno = why;
+  return -1;
+}
+
+/// Returns -1 and sets errno on failure.
+int Listen(const addrinfo& at) {
+  const int fd = Bind(at);
+  if (fd < 0 || listen(fd, SOMAXCONN) == 0) return fd;
   const int why = errno;
   close(fd);
   errno = why;
@@ -93,15 +123,11 @@ int Listen(const addrinfo& at) {
 
 Listener::Listener(const std::string& address, const std::string& field) {
   const Addresses found = Resolve(address);
-  if (!found.first) throw CannotListen(field, address, gai_strerror(found.error));
+  if (!found.first) throw Unresolved(field, address, found.error);
   int why = 0;
   for (const addrinfo* at = found.first.get(); at != nullptr; at = at->ai_next) {
     // All addresses of a host share one port, even if the system chose it for the first.
-    if (port_ != 0 && at->ai_addr->sa_family == AF_INET6) {
-      reinterpret_cast<sockaddr_in6*>(at->ai_addr)->sin6_port = htons(static_cast<uint16_t>(port_));
-    } else if (port_ != 0) {
-      reinterpret_cast<sockaddr_in*>(at->ai_addr)->sin_port = htons(static_cast<uint16_t>(port_));
-    }
+    if (port_ != 0) SetPort(*at, port_);
     const int fd = Listen(*at);
     if (fd < 0) {
       why = errno;
@@ -110,7 +136,7 @@ Listener::Listener(const std::string& address, const std::string& field) {
     sockets_.push_back(fd);
     port_ = PortOf(fd);
   }
-  if (sockets_.empty()) throw CannotListen(field, address, std::strerror(why));
+  if (sockets_.empty()) throw Unbound(field, address, why);
   stop_ = eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
 }
 
@@ -172,6 +198,22 @@ void Listener::Pause() {
   ++refused_;
   pollfd stop{.fd = stop_, .events = POLLIN, .revents = 0};
   poll(&stop, 1, kPauseMs);
+}
+
+void RequireOwnAddress(const std::string& address, const std::string& field) {
+  const Addresses found = Resolve(address);
+  if (!found.first) throw Unresolved(field, address, found.error);
+  int why = 0;
+  for (const addrinfo* at = found.first.get(); at != nullptr; at = at->ai_next) {
+    SetPort(*at, 0);
+    const int fd = Bind(*at);
+    if (fd >= 0) {
+      close(fd);
+      return;
+    }
+    why = errno;
+  }
+  throw Unbound(field, address, why);
 }
 
 bool IsLocal(const std::string& address) {

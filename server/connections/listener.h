@@ -20,7 +20,8 @@ class Listener {
   using Accept = std::function<void(int listening, int connection)>;
 
   /// Listens on HOST:PORT; port 0 picks a free port. Connections wait until Start. Throws
-  /// Error(kUnavailable, field).
+  /// Error(field): kInvalidArgument if the host has no address or one of another machine, else
+  /// kUnavailable.
   explicit Listener(const std::string& address, const std::string& field = "--listen");
   ~Listener();
   Listener(const Listener&) = delete;
@@ -45,6 +46,10 @@ class Listener {
   int64_t refused_ = 0;  // since the last report
   std::chrono::steady_clock::time_point next_report_;
 };
+
+/// Throws what Listener would throw for a host that has no address, or none of this machine. The
+/// port may be in use.
+void RequireOwnAddress(const std::string& address, const std::string& field);
 
 /// Whether HOST:PORT is reachable from this machine only. Also true for a host without an address,
 /// on which nobody can listen.

@@ -198,6 +198,20 @@ TEST_F(ServeTest, FindsATakenAddressBeforeLoadingModels) {
   EXPECT_THAT(outcome.said, HasSubstr("--metrics: "));
 }
 
+// No restart mends it.
+TEST_F(ServeTest, AnAddressOfNobodyOrOfAnotherMachineIsMisuse) {
+  for (const std::string wrong : {"nohost.invalid:0", "203.0.113.7:0"}) {
+    for (const std::string& settings :
+         {" --insecure --listen " + wrong, " --listen 127.0.0.1:0 --metrics " + wrong}) {
+      for (const std::string way : {"", " --check"}) {
+        const Outcome outcome = Shell("timeout 20 " FAKE_CHOREOD + way + settings);
+        EXPECT_EQ(outcome.code, 2) << outcome.said;
+        EXPECT_THAT(outcome.said, HasSubstr('"' + wrong + "\" cannot be listened on"));
+      }
+    }
+  }
+}
+
 TEST_F(ServeTest, FindsBadSecretsBeforeLoadingModels) {
   WriteSlow("slow");
   const std::string file = (folder_ / "file").string();
