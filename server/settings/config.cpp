@@ -219,7 +219,7 @@ class Reading {
 
  private:
   // CLI11 sets a number that it cannot convert to 0, so settings with a fault are not checked.
-  void CheckValues(FaultList* faults) const try { config.Validate(); } catch (const Error& error) {
+  void CheckValues(FaultList* faults) const try { config.Check(); } catch (const Error& error) {
     const FaultList before = *faults;
     for (const std::string& fault : FaultsIn(error.what())) {
       const std::string setting = fault.substr(0, fault.find(':') + 1);

@@ -6,9 +6,12 @@
 
 #include <algorithm>
 #include <charconv>
+#include <functional>
+#include <map>
 #include <sstream>
 #include <utility>
 
+#include "model/core/joined.h"
 #include "network/pem.h"
 #include "server/messages/status.h"
 
@@ -37,7 +40,7 @@ Tokens::Tokens(std::filesystem::path file) : file_(std::move(file)) {
   if (!needed()) return;
   text_ = Read();
   Content content = Parse(*text_);
-  if (!content.bad_lines.empty()) throw BadLines(content.bad_lines);
+  if (!content.good()) throw Faults(content);
   if (content.holders.empty()) throw NoTokens();
   Replace(std::move(content.holders));
 }
@@ -69,13 +72,20 @@ Tokens::Content Tokens::Parse(const std::string& text) {
   Content content;
   std::istringstream lines(text);
   std::string line;
+  std::map<Hash, std::pair<std::string, int>> seen;  // name and line of each hash
   for (int number = 1; std::getline(lines, line); ++number) {
     std::istringstream words(line);
     std::string digits;
     Holder holder;
     if (!(words >> digits) || digits.starts_with('#')) continue;
     if (ParseHash(digits, &holder.hash) && words >> holder.name) {
-      content.holders.push_back(std::move(holder));
+      const auto& [known, is_new] = seen.try_emplace(holder.hash, holder.name, number);
+      const auto& [name, first] = known->second;
+      if (is_new) {
+        content.holders.push_back(std::move(holder));
+      } else if (name != holder.name && content.twins.empty()) {
+        content.twins = std::to_string(first) + " and " + std::to_string(number);
+      }
     } else if (content.bad_lines.size() < kMaxLinesLength) {
       content.bad_lines += (content.bad_lines.empty() ? "" : ", ") + std::to_string(number);
     }
@@ -84,9 +94,14 @@ Tokens::Content Tokens::Parse(const std::string& text) {
 }
 
 // Never quotes a line, because it may contain a token.
-Error Tokens::BadLines(const std::string& numbers) const {
-  return InvalidArgument("--tokens", file_.string() + " line " + numbers +
-                                         ": not \"SHA256 NAME\" with 64 hexadecimal digits");
+Error Tokens::Faults(const Content& content) const {
+  std::vector<std::string> faults;
+  if (!content.bad_lines.empty())
+    faults.push_back("line " + content.bad_lines +
+                     ": not \"SHA256 NAME\" with 64 hexadecimal digits");
+  if (!content.twins.empty())
+    faults.push_back("lines " + content.twins + ": the same token under two names");
+  return InvalidArgument("--tokens", file_.string() + ' ' + Joined(faults, std::identity(), "; "));
 }
 
 Error Tokens::NoTokens() const {
@@ -174,20 +189,20 @@ std::optional<bool> Tokens::Refresh() {
     return std::nullopt;
   }
   Content content = Parse(text);
-  const bool is_empty = content.holders.empty() && content.bad_lines.empty();
+  const bool is_empty = content.holders.empty() && content.good();
   // A file is empty for a moment while it is written, so it must be still empty at the next
   // Refresh.
   if (is_empty && !std::exchange(seems_empty_, true)) return std::nullopt;
   seems_empty_ = is_empty;
   text_ = std::move(text);
-  const bool all_good = content.bad_lines.empty();
+  const bool all_good = content.good();
   // A file without a token is the wrong file or unfinished.
   if (content.holders.empty()) {
-    const Error fault = is_empty ? NoTokens() : BadLines(content.bad_lines);
+    const Error fault = is_empty ? NoTokens() : Faults(content);
     spdlog::error("{}; the {} tokens known before stay valid", fault.what(), count());
     return false;
   }
-  if (!all_good) spdlog::error("{}; the other lines count", BadLines(content.bad_lines).what());
+  if (!all_good) spdlog::error("{}; the other lines count", Faults(content).what());
   spdlog::info("{} tokens are known now", content.holders.size());
   Replace(std::move(content.holders));
   warned_ = false;

@@ -19,8 +19,9 @@ namespace choreo {
 /// The authorised callers, read from a file of lines "SHA256 NAME". SHA256 is the hash, 64
 /// hexadecimal digits as printed by sha256sum, of a token that the client sends as "authorization:
 /// Bearer TOKEN". Empty lines and lines that begin with # are ignored. Tokens themselves are
-/// neither stored nor logged. A token removed from the file gives no access. But a file without a
-/// good line keeps its previous tokens valid. A missing file admits nobody. Thread-safe.
+/// neither stored nor logged. A token has one name: a line that gives it another is bad. A token
+/// removed from the file gives no access. But a file without a good line keeps its previous tokens
+/// valid. A missing file admits nobody. Thread-safe.
 class Tokens {
  public:
   /// A token's SHA-256.
@@ -61,12 +62,14 @@ class Tokens {
   struct Content {
     Holders holders;
     std::string bad_lines;  // "2, 7"; empty: none
+    std::string twins;      // "2 and 7", the first lines of one hash and two names; empty: none
+    bool good() const { return bad_lines.empty() && twins.empty(); }
   };
 
   std::string Read() const;
   static Content Parse(const std::string& text);
   static bool ParseHash(std::string_view digits, Hash* hash);
-  Error BadLines(const std::string& numbers) const;
+  Error Faults(const Content& content) const;
   Error NoTokens() const;
   std::shared_ptr<const Holders> holders() const;
   void Replace(Holders holders);

@@ -150,6 +150,26 @@ TEST_F(TokensTest, AnUnreadableFileEndsNoDance) {
   EXPECT_TRUE(tokens.IsRevoked(hash));
 }
 
+// Otherwise the log would name either, and removing one line would revoke nothing.
+TEST_F(TokensTest, ATokenHasOneName) {
+  const std::string both = LineOf("a", "alice") + LineOf("b", "bob");
+  Write("tokens", both + LineOf("a", "mallory"));
+  try {
+    Tokens{folder_ / "tokens"};
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_THAT(error.what(), HasSubstr("tokens lines 1 and 3: the same token under two names"));
+  }
+  Write("tokens", both + LineOf("a", "alice"));
+  Tokens tokens(folder_ / "tokens");
+  EXPECT_EQ(tokens.count(), 2U) << "a repeated line is harmless";
+  Write("tokens", both + LineOf("a", "mallory"));
+  EXPECT_EQ(tokens.Refresh(), false);
+  std::string holder;
+  EXPECT_TRUE(tokens.FindHolder("Bearer a", &holder).ok());
+  EXPECT_EQ(holder, "alice");
+}
+
 // This may be another file, or one whose writer failed halfway.
 TEST_F(TokensTest, AFileOfBadLinesKeepsTheFormerTokens) {
   const LogCapture log;
