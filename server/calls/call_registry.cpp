@@ -227,11 +227,11 @@ double CallRegistry::Spread(double seconds) {
                   std::uniform_real_distribution(1.0, 1.5)(random_) * std::max(1.0, seconds));
 }
 
-double CallRegistry::RetryAfter() {
+double CallRegistry::RetryAfter(double room) {
   const std::lock_guard lock(mutex_);
   const int calls = std::max(1, admitted_);
   refused_ = std::min(refused_ + 1, calls);  // bounds the delay when callers never return
-  return Spread(mean_seconds_ * refused_ / calls);
+  return Spread(std::max(room, mean_seconds_ * refused_ / calls));
 }
 
 double CallRegistry::RetryElsewhere() {

@@ -110,8 +110,9 @@ class CallRegistry {
   /// larger.
   double utilisation() const;
   /// Seconds, 1 to 60, after which a refused call should retry: about when as many calls will have
-  /// ended as were refused before it. Randomised, so that retries do not coincide.
-  double RetryAfter();
+  /// ended as were refused before it, but not before `room` seconds, in which no call is expected
+  /// to end. Randomised, so that retries do not coincide.
+  double RetryAfter(double room = 0);
   /// RetryAfter for a client that has other servers to try.
   double RetryElsewhere();
 

@@ -191,8 +191,13 @@ class CallSession : public Call {
   /// The gRPC status for an error, including RetryInfo's delay.
   grpc::Status StatusOf(const Error& error) const {
     const std::optional<Refusal> refusal = RefusalIn(error);
-    const bool waits = refusal && *refusal != Refusal::kDraining;
-    return ToStatus(error, waits ? serving_.calls.RetryAfter() : serving_.calls.RetryElsewhere());
+    if (!refusal || *refusal == Refusal::kDraining)
+      return ToStatus(error, serving_.calls.RetryElsewhere());
+    // Calls that ended before tell nothing of how long these transitions last.
+    const bool is_busy = *refusal == Refusal::kLoad || *refusal == Refusal::kLoadOfPeer ||
+                         *refusal == Refusal::kWaiting;
+    return ToStatus(error,
+                    serving_.calls.RetryAfter(is_busy ? serving_.frames.SecondsToRoom() : 0));
   }
 
   /// Names model and seed in the call's log line. Message thread.

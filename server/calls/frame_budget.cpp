@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "model/plan/takes.h"
@@ -29,7 +30,32 @@ void FrameBudget::ReserveTransition(const void* call, const SampleQueue& model,
   const double most = std::min(shares.of_all, shares.of_lone_caller) / 2;
   const double load = model.LoadOf(frames_per_second);
   if (load > most) frames_per_second *= most / load;
-  Reserve(call, {&model, caller, frames_per_second, false});
+  Reserve(call, {&model, caller, frames_per_second, false, model.LoadOf(frames)});
+}
+
+double FrameBudget::SecondsToRoom() const {
+  const std::lock_guard lock(mutex_);
+  std::optional<Seconds> least;
+  for (const auto& [call, charge] : charges_) {
+    if (charge.dances) continue;
+    const Seconds left = charge.ends - time_.Now();
+    least = std::min(left, least.value_or(left));
+  }
+  return least ? std::max(0.0, least->count()) : 0;
+}
+
+FrameBudget::Seconds FrameBudget::TimeFor(double work) const {
+  constexpr double kLeastFree = 0.1;
+  double danced = 0;
+  Seconds before(0);
+  for (const auto& [call, charge] : charges_) {
+    if (charge.dances) {
+      danced += LoadOf(charge);
+    } else {
+      before = std::max<Seconds>(before, charge.ends - time_.Now());
+    }
+  }
+  return before + Seconds(work / std::max(kLeastFree, 1 - danced));
 }
 
 void FrameBudget::Reserve(const void* call, Charge charge) {
@@ -48,7 +74,10 @@ void FrameBudget::Reserve(const void* call, Charge charge) {
     require(nullptr, MostOfAll(shares, &charge));
     require(&charge.caller, of_caller);
   }
-  if (!charge.dances) only_danced_ = false;
+  if (!charge.dances) {
+    only_danced_ = false;
+    charge.ends = time_.Now() + std::chrono::duration_cast<Clock::duration>(TimeFor(charge.work));
+  }
   charges_.emplace(call, std::move(charge));
 }
 

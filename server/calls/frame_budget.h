@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <functional>
 #include <map>
 #include <mutex>
@@ -8,6 +9,7 @@
 
 #include "model/engine/sample_queue.h"
 #include "server/calls/serving_cost.h"
+#include "server/process/time_source.h"
 
 namespace choreo {
 
@@ -29,11 +31,12 @@ class FrameBudget {
  public:
   /// `has_rival`: whether another caller than this one is connected. While one is, a caller must
   /// leave time for one more call like its own. `serving`: the cost of serving; null charges
-  /// nothing for it.
+  /// nothing for it. `time` must outlive this.
   explicit FrameBudget(const FrameShares& shares,
                        std::function<bool(const std::string& caller)> has_rival = {},
-                       const ServingCost* serving = nullptr)
-      : has_rival_(std::move(has_rival)), serving_(serving), shares_(shares) {}
+                       const ServingCost* serving = nullptr,
+                       const TimeSource& time = TimeSource::System())
+      : has_rival_(std::move(has_rival)), serving_(serving), time_(time), shares_(shares) {}
 
   /// Reserves time for a dance at playing speed, however fast its music arrives. Throws Refused if
   /// it exceeds the time left. A lone caller's first call is always accepted, so that slow engines
@@ -48,6 +51,10 @@ class FrameBudget {
   /// Ends a call's charge. Ignores calls that were not charged.
   void GiveBack(const void* call) noexcept;
 
+  /// Seconds after which the first of the charged transitions should be made, beside the dances and
+  /// one after the other; 0 without any.
+  double SecondsToRoom() const;
+
   /// Whether no transition was charged since the previous call of OnlyDanced.
   bool OnlyDanced();
 
@@ -58,15 +65,23 @@ class FrameBudget {
   double utilisation() const;
 
  private:
+  using Clock = std::chrono::steady_clock;
+  using Seconds = std::chrono::duration<double>;
+
   struct Charge {
     const SampleQueue* model;
     std::string caller;
     double frames_per_second;
     bool dances;
+    double work = 0;              // of a transition: seconds of all of the machine's time
+    Clock::time_point ends = {};  // when a transition should be made
   };
 
   void Reserve(const void* call, Charge charge);
   double LoadOf(const Charge& charge) const;
+
+  // How long a further transition takes that needs `work`, behind the others. Requires mutex_.
+  Seconds TimeFor(double work) const;
 
   // The load of all calls or, with `caller`, of one caller's calls, plus `more`. Requires mutex_.
   double LoadOf(const std::string* caller, const Charge* more = nullptr) const;
@@ -81,6 +96,7 @@ class FrameBudget {
 
   const std::function<bool(const std::string& caller)> has_rival_;
   const ServingCost* const serving_;
+  const TimeSource& time_;
   mutable std::mutex mutex_;
   FrameShares shares_;                     // lock: mutex_
   std::map<const void*, Charge> charges_;  // by call. Lock: mutex_

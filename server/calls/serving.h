@@ -25,7 +25,8 @@ struct Serving {
           int64_t file_music_bytes, int io_threads, const TimeSource& time = TimeSource::System())
       : calls(limits, time),
         frames(
-            shares, [this](const std::string& caller) { return calls.HasRival(caller); }, &cost),
+            shares, [this](const std::string& caller) { return calls.HasRival(caller); }, &cost,
+            time),
         tokens(std::move(tokens_file)),
         outbox_bytes(outbox_limit),
         file_music(file_music_bytes),

@@ -69,6 +69,33 @@ TEST_F(OverloadTest, ABurstIsAdmittedAsFarAsTheEngineHolds) {
   probe->Open();
 }
 
+// No call has ended that could tell.
+TEST_F(OverloadTest, ARefusedTransitionLearnsHowLongTheOthersTake) {
+  v1::GenerateTransitionRequest request;
+  *request.mutable_config() = Config();
+  request.set_frames(480);  // a second of the engine's time
+  std::vector<std::unique_ptr<grpc::ClientContext>> contexts;
+  std::vector<std::unique_ptr<grpc::ClientReader<v1::GenerateTransitionResponse>>> running;
+  for (const unsigned candidates : {30U, 4U}) {
+    request.set_candidates(candidates);
+    contexts.push_back(std::make_unique<grpc::ClientContext>());
+    running.push_back(stub().GenerateTransition(contexts.back().get(), request));
+    v1::GenerateTransitionResponse header;
+    ASSERT_TRUE(running.back()->Read(&header));
+  }
+  request.set_candidates(2);
+  const grpc::Status refused = Generate(request).status;
+  EXPECT_EQ(refused.error_code(), grpc::StatusCode::RESOURCE_EXHAUSTED);
+  const Details details = DetailsOf(refused);
+  ASSERT_TRUE(details.retry_info);
+  EXPECT_GE(details.retry_info->retry_delay().seconds(), 15);
+  for (size_t i = 0; i < running.size(); ++i) {
+    contexts[i]->TryCancel();
+    running[i]->Finish();
+  }
+  probe->Open();
+}
+
 TEST_F(OverloadTest, AdmitsSomeAndTheOthersOnceTheseAreOver) {
   const auto admitted = AskTogether();
   ASSERT_FALSE(admitted.empty());

@@ -6,6 +6,7 @@
 #include "model/core/grid.h"
 #include "model/core/threads.h"
 #include "model/plan/takes.h"
+#include "tests/support/advanced_clock.h"
 #include "tests/support/expect_error.h"
 #include "tests/support/fake_sampler.h"
 
@@ -120,6 +121,23 @@ TEST_F(FrameBudgetTest, TransitionsPayForTheirFramesUpToHalfTheBudget) {
   EXPECT_NEAR(budget.loads()["fake"], 0.455, 1e-9);
   EXPECT_EQ(ReserveDances(budget, *models[0], "a", calls + 100), 5);
   EXPECT_THROW(budget.ReserveTransition(&calls[2], *models[0], "a", 1'000'000), Error);
+}
+
+TEST_F(FrameBudgetTest, KnowsWhenTransitionsShouldBeMade) {
+  AdvancedClock clock;
+  FrameBudget budget({.of_all = 0.99, .of_peer = 0.99, .of_lone_peer = 0.99}, {}, nullptr, clock);
+  EXPECT_EQ(budget.SecondsToRoom(), 0);
+  for (int i = 0; i < 2; ++i) budget.TakeDance(&calls[i], *models[0], "a");  // a tenth of the time
+  EXPECT_EQ(budget.SecondsToRoom(), 0) << "nobody knows how long dances last";
+  budget.TakeTransition(&calls[10], *models[0], "a", 5400);
+  EXPECT_NEAR(budget.SecondsToRoom(), 10, 0.5);
+  clock.Advance(std::chrono::seconds(4));
+  budget.TakeTransition(&calls[11], *models[0], "a", 540);
+  EXPECT_NEAR(budget.SecondsToRoom(), 6, 0.5);
+  budget.GiveBack(&calls[10]);
+  EXPECT_NEAR(budget.SecondsToRoom(), 7, 0.5) << "it waited for the first";
+  clock.Advance(std::chrono::seconds(9));
+  EXPECT_EQ(budget.SecondsToRoom(), 0) << "it may end at any time";
 }
 
 // On one core, serving a dance costs half as much again as sampling it.
