@@ -2,6 +2,7 @@
 
 #include <chrono>
 
+#include "client/cli/options/connection.h"
 #include "client/replicas.h"
 #include "google/rpc/error_details.pb.h"
 #include "google/rpc/status.pb.h"
@@ -51,6 +52,15 @@ TEST(PatienceTest, NoWaitIsLongerThanWhatIsLeft) {
   const auto last = patience.Next(kGone, "a:1", false, Time(std::chrono::milliseconds(9900)));
   ASSERT_TRUE(last);
   EXPECT_LE(last->count(), 0.1001);
+}
+
+// A full server may ask for more than the ten seconds of others.
+TEST(PatienceTest, ALongDeadlineIsTimeForRetries) {
+  cli::ServerOptions options;
+  EXPECT_EQ(options.ForClient().retry_s, Options().retry_s);
+  options.deadline_s = 60;
+  EXPECT_EQ(Patience(options.ForClient()).Next(FullFor(40), "a:1", false),
+            std::chrono::seconds(40));
 }
 
 TEST(PatienceTest, NoTimeIsNoRetry) {

@@ -61,7 +61,10 @@ void ServerOptions::AddTo(CLI::App& command) {
           "--token-file", token_file,
           "File with the token for the server. It is sent only over TLS, or to this machine.")
       ->envname("CHOREO_TOKEN_FILE");
-  command.add_option("--deadline", deadline_s, "Give up after this many seconds; 0: never.")
+  command
+      .add_option("--deadline", deadline_s,
+                  "Give up after this many seconds; 0: never. A server that is full or away is "
+                  "tried again for 10 s, or for as long as this if it is longer.")
       ->check(TimeInSeconds())
       ->capture_default_str();
 }
@@ -82,6 +85,8 @@ client::Options ServerOptions::ForClient() const {
   options.server_name = server_name;
   options.token_file = token_file;
   options.deadline_s = deadline_s;
+  // Who can wait longer than usual may be asked to by a full server.
+  options.retry_s = std::max(options.retry_s, deadline_s);
   options.allow_inexact_resume = allow_inexact_resume;
   options.even_draining = even_draining;
   return options;
