@@ -9,7 +9,7 @@
 namespace choreo {
 namespace {
 
-constexpr std::chrono::seconds kBetweenRefusalReports{1}, kBetweenSweeps{10};
+constexpr std::chrono::seconds kBetweenRefusalReports{60}, kBetweenSweeps{10};
 
 const char* Reason(ConnectionRefusal refusal) {
   switch (refusal) {
@@ -37,13 +37,38 @@ bool AcceptGuard::Takes(int connection) {
   } else if (TakesFrom(address, now)) {
     return true;
   }
-  const uint64_t so_far = ++tally_.refused_connections[static_cast<size_t>(refusal)];
-  if (now >= next_report_) {
-    next_report_ = now + kBetweenRefusalReports;
-    spdlog::warn("{} {}; its new connection is closed, of {} so far", address, Reason(refusal),
-                 so_far);
-  }
+  Refuse(address, refusal, now);
   return false;
+}
+
+void AcceptGuard::Refuse(const std::string& address, ConnectionRefusal why, Clock::time_point now) {
+  ++tally_.refused_connections[static_cast<size_t>(why)];
+  const std::lock_guard lock(mutex_);
+  latest_ = address + ' ' + Reason(why);
+  ++untold_;
+  if (now < next_report_) return;
+  next_report_ = now + kBetweenRefusalReports;
+  Log();
+}
+
+void AcceptGuard::Report(Clock::time_point now) {
+  const std::lock_guard lock(mutex_);
+  if (untold_ == 0 || now < next_report_) return;
+  next_report_ = now + kBetweenRefusalReports;
+  Log();
+}
+
+void AcceptGuard::ReportRest() {
+  const std::lock_guard lock(mutex_);
+  if (untold_ > 0) Log();
+}
+
+void AcceptGuard::Log() {
+  spdlog::warn("{}; {}", latest_,
+               untold_ == 1 ? "its new connection is closed"
+                            : "since the last such line " + std::to_string(untold_) +
+                                  " new connections were closed");
+  untold_ = 0;
 }
 
 bool AcceptGuard::TakesFrom(const std::string& address, Clock::time_point now) {

@@ -208,6 +208,7 @@ struct Server::Impl {
       serving.models.FreeUnused();
       serving.LookAtCost();
       LogLeftOutCalls();
+      newcomers.Report(AcceptGuard::Clock::now());
       UpdateHealth();
       if (certificate) handshakes.Look();
       TellManagerOfLife();
@@ -286,7 +287,7 @@ struct Server::Impl {
   ChoreographyService service;
   HandshakeWatch handshakes;
   ResetGuard resets;
-  AcceptGuard newcomers;  // only the listener's thread uses it
+  AcceptGuard newcomers;
   std::optional<CertificateFiles> certificate;
   std::unique_ptr<grpc::experimental::ExternalConnectionAcceptor> acceptor;
   std::unique_ptr<grpc::Server> server;
@@ -356,6 +357,7 @@ void Server::Drain(double seconds) {
   const milliseconds notice = std::min(kNotice, Milliseconds(seconds));
   std::this_thread::sleep_for(notice);
   impl_->listener.Stop();
+  impl_->newcomers.ReportRest();
   impl_->server->Shutdown(std::chrono::system_clock::now() +
                           (notice == kNotice ? kShutdownTimeAfterNotice : kShutdownTime));
   const Tally& tally = impl_->serving.tally;

@@ -1,8 +1,13 @@
 #include "server/accept_guard.h"
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
+#include <spdlog/sinks/ostream_sink.h>
+#include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <chrono>
+#include <memory>
+#include <sstream>
 #include <string>
 
 #include "server/connections/frame_guard.h"
@@ -14,6 +19,7 @@ namespace choreo::accept_guard_test {
 
 using std::chrono::milliseconds;
 using std::chrono::seconds;
+using testing::HasSubstr;
 
 class AcceptGuardTest : public testing::Test {
  protected:
@@ -25,8 +31,6 @@ class AcceptGuardTest : public testing::Test {
   }
 
   AcceptGuard::Clock::time_point now_ = AcceptGuard::Clock::now();
-
- private:
   const ResetGuard resets_{1};
   Tally tally_;
   AcceptGuard guard_{resets_, tally_};
@@ -57,6 +61,34 @@ TEST_F(AcceptGuardTest, HonestRatesAreNeverRefused) {
     EXPECT_EQ(Takes(1), 1);
     now_ += milliseconds(1000 / AcceptGuard::kPerSecond + 1);
   }
+}
+
+TEST_F(AcceptGuardTest, EachRefusalIsToldOfOnceAndCounted) {
+  std::ostringstream log;
+  const auto before = spdlog::default_logger();
+  spdlog::set_default_logger(std::make_shared<spdlog::logger>(
+      "guard", std::make_shared<spdlog::sinks::ostream_sink_mt>(log)));
+  const auto refuse = [&](int count) {
+    for (int i = 0; i < count; ++i) guard_.Refuse("ipv4:192.0.2.1", ConnectionRefusal::kRate, now_);
+  };
+  const auto lines = [&] {
+    const std::string text = log.str();
+    return std::ranges::count(text, '\n');
+  };
+  refuse(170);
+  guard_.Report(now_);
+  EXPECT_EQ(lines(), 1);
+  EXPECT_THAT(log.str(), HasSubstr("192.0.2.1 connects too often; its new connection is closed"));
+  now_ += seconds(60);
+  guard_.Report(now_);
+  guard_.Report(now_ + seconds(60));
+  EXPECT_EQ(lines(), 2);
+  EXPECT_THAT(log.str(), HasSubstr("169 new connections were closed"));
+  refuse(3);
+  EXPECT_EQ(lines(), 2);
+  guard_.ReportRest();
+  EXPECT_THAT(log.str(), HasSubstr("3 new connections were closed"));
+  spdlog::set_default_logger(before);
 }
 
 // Like other floods: one more call would cost memory, and the next connection would bring it.
