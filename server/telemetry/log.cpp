@@ -89,7 +89,8 @@ LineLimit& RefusedCalls() {
   return limit;
 }
 
-/// Forwards gRPC's own log, which contains only errors unless GRPC_VERBOSITY is set.
+/// Forwards gRPC's own log, which contains only errors unless GRPC_VERBOSITY is set. Harmless
+/// clients cause most of them, so they are warnings here.
 void ForwardGrpcLine(gpr_log_func_args* line) {
   CountHandshakeFault(line->message);
   static LineLimit limit(10, std::chrono::seconds(10));
@@ -100,7 +101,7 @@ void ForwardGrpcLine(gpr_log_func_args* line) {
   const bool is_orderly =
       std::string_view(line->message).find("Listener stopped serving") != std::string_view::npos;
   const auto level = is_orderly                                 ? spdlog::level::info
-                     : line->severity == GPR_LOG_SEVERITY_ERROR ? spdlog::level::err
+                     : line->severity == GPR_LOG_SEVERITY_ERROR ? spdlog::level::warn
                      : line->severity == GPR_LOG_SEVERITY_INFO  ? spdlog::level::info
                                                                 : spdlog::level::debug;
   spdlog::log(level, "gRPC: {}", line->message);
