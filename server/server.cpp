@@ -17,6 +17,7 @@
 #include <set>
 #include <thread>
 
+#include "model/core/counted.h"
 #include "model/core/error.h"
 #include "model/core/threads.h"
 #include "network/protocol.h"
@@ -349,8 +350,8 @@ void Server::Drain(double seconds) {
     empty = wait(moving);
   }
   if (!empty) {
-    spdlog::warn("{} calls were still in progress after {} s; they end as UNAVAILABLE",
-                 calls.count(), seconds);
+    spdlog::warn("still in progress after {} s: {}, ended as UNAVAILABLE", seconds,
+                 Counted(calls.count(), "call"));
     calls.AbortAll(ResumeElsewhere());
     calls.WaitUntilEmpty(kAbortTime);
   }
@@ -362,7 +363,8 @@ void Server::Drain(double seconds) {
                           (notice == kNotice ? kShutdownTimeAfterNotice : kShutdownTime));
   const Tally& tally = impl_->serving.tally;
   const auto [served, refused] = tally.sum();
-  spdlog::info("served {} calls ({} refused) with {} frames", served, refused, tally.frames.load());
+  spdlog::info("served {} ({} refused) with {}", Counted(served, "call"), refused,
+               Counted(tally.frames.load(), "frame"));
 }
 
 }  // namespace choreo

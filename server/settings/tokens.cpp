@@ -11,6 +11,7 @@
 #include <sstream>
 #include <utility>
 
+#include "model/core/counted.h"
 #include "model/core/joined.h"
 #include "network/pem.h"
 #include "server/messages/status.h"
@@ -199,11 +200,12 @@ std::optional<bool> Tokens::Refresh() {
   // A file without a token is the wrong file or unfinished.
   if (content.holders.empty()) {
     const Error fault = is_empty ? NoTokens() : Faults(content);
-    spdlog::error("{}; the {} tokens known before stay valid", fault.what(), count());
+    spdlog::error("{}; what was known before stays valid: {}", fault.what(),
+                  Counted(count(), "token"));
     return false;
   }
   if (!all_good) spdlog::error("{}; the other lines count", Faults(content).what());
-  spdlog::info("{} tokens are known now", content.holders.size());
+  spdlog::info("{}: read again, {}", file_.string(), Counted(content.holders.size(), "token"));
   Replace(std::move(content.holders));
   warned_ = false;
   return all_good;

@@ -129,8 +129,11 @@ TEST_F(TokensTest, AnEmptiedFileKeepsTheFormerTokens) {
     Write("tokens", alice);
     EXPECT_EQ(tokens.Refresh(), true);
   }
-  EXPECT_THAT(log.text(), HasSubstr("[error] --tokens: " + (folder_ / "tokens").string() +
-                                    " holds no token, no line \"SHA256 NAME\"; the 1 tokens"));
+  EXPECT_THAT(
+      log.text(),
+      HasSubstr(
+          "[error] --tokens: " + (folder_ / "tokens").string() +
+          " holds no token, no line \"SHA256 NAME\"; what was known before stays valid: 1 token"));
 }
 
 // A file that cannot be read may come back in a moment, so it revokes no dance.
@@ -183,7 +186,7 @@ TEST_F(TokensTest, AFileOfBadLinesKeepsTheFormerTokens) {
   EXPECT_TRUE(knows_alice());
   EXPECT_THAT(log.text(), HasSubstr("[error] --tokens: " + (folder_ / "tokens").string() +
                                     " line 2: not \"SHA256 NAME\""));
-  EXPECT_THAT(log.text(), HasSubstr("the 1 tokens known before stay valid"));
+  EXPECT_THAT(log.text(), HasSubstr("what was known before stays valid: 1 token"));
   // Removed tokens do not return.
   std::filesystem::remove(folder_ / "tokens");
   EXPECT_EQ(tokens.Refresh(), false);

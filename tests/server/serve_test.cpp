@@ -130,7 +130,7 @@ TEST_F(ServeTest, StopsWhileLoadingAnotherModel) {
   Send(SIGTERM);
   const Outcome outcome = End();
   EXPECT_EQ(outcome.code, 0) << outcome.said;
-  EXPECT_THAT(outcome.said, HasSubstr("served 1 calls"));
+  EXPECT_THAT(outcome.said, HasSubstr("served 1 call"));
 }
 
 // Scripts send the signal to several servers.
@@ -144,7 +144,7 @@ TEST_F(ServeTest, OutlivesSighupWithoutAFolder) {
   const Outcome outcome = End();
   EXPECT_THAT(outcome.said,
               HasSubstr("settings: none has changed; without --config there is no file"));
-  EXPECT_THAT(outcome.said, HasSubstr("served 1 calls"));
+  EXPECT_THAT(outcome.said, HasSubstr("served 1 call"));
 }
 
 TEST_F(ServeTest, RereadsItsSettingsOnSighup) {
@@ -294,7 +294,7 @@ TEST_F(ServeTest, CountsAllRefusals) {
   ExpectError(ErrorCode::kResourceExhausted, "transitions are in progress",
               [&] { client.GenerateTransition({.frames = 5, .candidates = 9}); });
   Send(SIGTERM);
-  EXPECT_THAT(End().said, HasSubstr("served 1 calls (1 refused) with 5 frames"));
+  EXPECT_THAT(End().said, HasSubstr("served 1 call (1 refused) with 5 frames"));
 }
 
 TEST_F(ServeTest, StopsAtOnceWhenSignalledTwice) {

@@ -13,6 +13,7 @@
 #include "client/cli/options/options.h"
 #include "client/cli/options/output_file.h"
 #include "model/audio/signal/mfcc.h"
+#include "model/core/counted.h"
 #include "model/core/error.h"
 #include "model/core/grid.h"
 #include "model/core/npy.h"
@@ -128,16 +129,11 @@ void PrintStretches(const BeatTrack& track) {
   }
 }
 
-/// "1 bar", "2 bars".
-std::string Counted(size_t count, const std::string& what) {
-  return std::to_string(count) + ' ' + what + (count == 1 ? "" : "s");
-}
-
 void PrintText(const authoring::Music& music, const authoring::Counts& counts,
                const std::optional<std::vector<authoring::ProposedKey>>& keys) {
   const BeatTrack& track = music.track;
   std::printf("%.2f s at %d Hz, %s; ", music.audio.seconds(), music.audio.sample_rate,
-              Counted(static_cast<size_t>(music.audio.channels), "channel").c_str());
+              Counted(music.audio.channels, "channel").c_str());
   if (track.frames.empty()) {
     std::printf("no beat heard");
   } else {
