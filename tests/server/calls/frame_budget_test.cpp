@@ -127,12 +127,12 @@ TEST_F(FrameBudgetTest, KnowsWhenTransitionsShouldBeMade) {
   AdvancedClock clock;
   FrameBudget budget({.of_all = 0.99, .of_peer = 0.99, .of_lone_peer = 0.99}, {}, nullptr, clock);
   EXPECT_EQ(budget.SecondsToRoom(), 0);
-  for (int i = 0; i < 2; ++i) budget.TakeDance(&calls[i], *models[0], "a");  // a tenth of the time
+  for (int i = 0; i < 2; ++i) budget.ReserveDance(&calls[i], *models[0], "a");  // a tenth of the time
   EXPECT_EQ(budget.SecondsToRoom(), 0) << "nobody knows how long dances last";
-  budget.TakeTransition(&calls[10], *models[0], "a", 5400);
+  budget.ReserveTransition(&calls[10], *models[0], "a", 5400);
   EXPECT_NEAR(budget.SecondsToRoom(), 10, 0.5);
   clock.Advance(std::chrono::seconds(4));
-  budget.TakeTransition(&calls[11], *models[0], "a", 540);
+  budget.ReserveTransition(&calls[11], *models[0], "a", 540);
   EXPECT_NEAR(budget.SecondsToRoom(), 6, 0.5);
   budget.GiveBack(&calls[10]);
   EXPECT_NEAR(budget.SecondsToRoom(), 7, 0.5) << "it waited for the first";
