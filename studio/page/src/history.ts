@@ -7,7 +7,7 @@ import { Motion } from './motion';
 import { trimmed } from './project';
 import type { Project } from './project';
 import { returnTo } from './songs';
-import { busy, selection, showError, danced, live, moment, moments, motion, momentIndex, project, selectedKey, song, takes, notify, warnings, work } from './state';
+import { busy, selection, showError, danced, live, message, moment, moments, motion, momentIndex, project, selectedKey, song, takes, notify, warnings, work } from './state';
 import type { Make, Moment, Warning } from './state';
 
 const mostMoments = 60;
@@ -136,6 +136,7 @@ function step(by: number) {
   const to = momentIndex.value + by;
   if (to < 0 || to >= moments.value.length) return;
   takes.value = [];
+  message.value = null; // it tells of the moment that is left
   momentIndex.value = to;
   danced.value = moment.value.motion.value.count;
   if (!project.value.keys.some(({ id }) => id === selectedKey.value)) selectedKey.value = null;

@@ -271,6 +271,7 @@ await inStudio(async ({ page, errors, until, settle, message, frames, scale, giv
     await settle();
     assert.match((await message()).text, /^odd\.bvh: [\d.]+ s of dance\. Note: its header says 7 frames; all \d+ that are there are read\.$/);
     await page.keyboard.press('Control+z');
+    assert.equal(await message(), null, 'a message about the dance that is left');
     const piped = clicks(6);
     piped.writeUInt32LE(0, 40);
     await drop('piped.wav', piped.toString('base64'));
