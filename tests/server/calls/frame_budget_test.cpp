@@ -125,9 +125,11 @@ TEST_F(FrameBudgetTest, TransitionsPayForTheirFramesUpToHalfTheBudget) {
 
 TEST_F(FrameBudgetTest, KnowsWhenTransitionsShouldBeMade) {
   AdvancedClock clock;
-  FrameBudget budget({.of_all = 0.99, .of_peer = 0.99, .of_lone_peer = 0.99}, {}, nullptr, clock);
+  FrameBudget budget({.of_all = 0.99, .of_caller = 0.99, .of_lone_caller = 0.99}, {}, nullptr,
+                     clock);
   EXPECT_EQ(budget.SecondsToRoom(), 0);
-  for (int i = 0; i < 2; ++i) budget.ReserveDance(&calls[i], *models[0], "a");  // a tenth of the time
+  for (int i = 0; i < 2; ++i)
+    budget.ReserveDance(&calls[i], *models[0], "a");  // a tenth of the time
   EXPECT_EQ(budget.SecondsToRoom(), 0) << "nobody knows how long dances last";
   budget.ReserveTransition(&calls[10], *models[0], "a", 5400);
   EXPECT_NEAR(budget.SecondsToRoom(), 10, 0.5);
