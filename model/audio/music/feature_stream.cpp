@@ -77,9 +77,8 @@ FeatureStream::RowValues FeatureStream::RowOf(std::span<const float> samples,
   thread_local MelSpectrum spectrum;
   RowValues row{.bands = spectrum.Decibels(samples), .sound = {}};
   if (beginnings == nullptr) return row;
-  const MelBandsDb audible = spectrum.WithoutDc(samples, row.bands);
-  row.sound = PowersOf(audible);
-  row.sound.onset = beginnings->rows.Add(audible);
+  row.sound = PowersOf(spectrum.WithoutDc(samples, row.bands));
+  row.sound.onset = beginnings->rows.Add(row.bands);
   for (size_t i = 0; i < kRowOnsets; ++i) {
     const size_t centre = kHalfWindow + i * kOnsetHop;
     row.sound.onsets[i] =

@@ -326,7 +326,7 @@ TEST_F(LiveDanceTest, HalfTimeIsDancedToEverySecondBeat) {
   const std::optional<double> tempo = figures_[figures_.size() - 2].tempo;
   ASSERT_TRUE(tempo);
   for (const live::LiveFigures& figures : figures_) {
-    if (figures.tempo) EXPECT_NEAR(*figures.tempo, 60, 2) << "at " << figures.seconds << " s";
+    EXPECT_NEAR(figures.tempo.value_or(60), 60, 2) << "at " << figures.seconds << " s";
   }
   EXPECT_THAT(notes_, testing::IsEmpty());
 }
