@@ -16,9 +16,11 @@ class MusicFaultsTest : public ServerTest {
     requests[1].mutable_audio()->set_data(bytes);
     return requests;
   }
+  /// A square wave.
   static v1::StreamDanceRequest Floats(int samples, float level) {
     v1::StreamDanceRequest audio = AudioRequest(samples, 0);
-    const std::vector<float> levels(static_cast<size_t>(samples), level);
+    std::vector<float> levels;
+    for (int i = 0; i < samples; ++i) levels.push_back(i / 50 % 2 == 0 ? level : -level);
     audio.mutable_audio()->set_data(levels.data(), 4 * levels.size());
     return audio;
   }
