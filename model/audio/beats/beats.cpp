@@ -271,8 +271,6 @@ BeatTrack TrackBeats(std::span<const Onset> onsets, const TempoLimits& limits, M
   BeatTrack track;
   std::vector<int> bars;
   const std::vector<bool> sounding = Sounding(onsets);
-  const int64_t end =
-      std::ssize(onsets) - (extent == MusicExtent::kWhole ? OnsetSums::kBeatFrames : 0);
   for (const Part& part : PartsOf(sounding)) {
     const auto part_onsets =
         onsets.subspan(static_cast<size_t>(part.begin), static_cast<size_t>(part.end - part.begin));
@@ -286,7 +284,9 @@ BeatTrack TrackBeats(std::span<const Onset> onsets, const TempoLimits& limits, M
       CountByHarmony(mono.subspan(static_cast<size_t>(part.begin * kOnsetHop)), &path);
     std::erase_if(path, [&](const BarPointer::Step& step) {
       const int64_t frame = part.begin + step.frame;
-      return frame >= end || IsInPause(sounding, frame, step.period);
+      const bool behind =
+          extent == MusicExtent::kWhole && frame >= std::ssize(onsets) - OnsetSums::kBeatFrames;
+      return behind || IsInPause(sounding, frame, step.period);
     });
     const std::vector<bool> have_pulse = HavePulse(part_onsets, path);
     for (size_t i = 0; i < path.size(); ++i) {
