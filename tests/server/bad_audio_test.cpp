@@ -82,8 +82,8 @@ INSTANTIATE_TEST_SUITE_P(
         {"None", Pieces({}), "end_of_audio", {"no sample came before"}},
         {"EmptyPieces",
          Pieces({AudioRequest(0, 0), AudioRequest(0, 0)}),
-         "audio",
-         {"without a sample"}},
+         "end_of_audio",
+         {"no sample came before"}},
         {"TooLong",
          [](const KeyMessage&) {
            v1::StreamDanceRequest config = MusicConfigRequest();

@@ -134,7 +134,7 @@ void Change(const BeatOptions& options, double start, BeatTrack* track) {
 void CheckGivenBeats(std::span<const double> beats, const std::string& field) {
   CheckBeats(beats, field);
   for (size_t i = 1; i < beats.size(); ++i)
-    RequireGap(beats[i - 1], beats[i], At(field, static_cast<int64_t>(i)));
+    RequireGap(beats[i - 1], beats[i], choreo::At(field, static_cast<int64_t>(i)));
 }
 
 void RequireLeft(const std::string& source, bool any, double start) {
