@@ -15,8 +15,8 @@ static_assert(kRowOnsets * kOnsetHop == kFeatureHop);
 inline constexpr int kRowSoundMemory = RowOnset::kMemory;
 static_assert(OnsetMeter::kMemory <= kRowOnsets * kRowSoundMemory);
 
-/// The sound of a FeatureStream's row. Powers are mean squares over its window, without a DC offset,
-/// which nobody hears; a full-scale sine has 0.5.
+/// The sound of a FeatureStream's row. Powers are mean squares over its window, without a DC
+/// offset, which nobody hears; a full-scale sine has 0.5.
 struct RowSound {
   float onset = 0;                         ///< from RowOnset
   std::array<Onset, kRowOnsets> onsets{};  ///< from OnsetMeter, oldest first
