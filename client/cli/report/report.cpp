@@ -4,6 +4,9 @@
 #include <cstdio>
 #include <iostream>
 #include <nlohmann/json.hpp>
+
+#include "model/core/counted.h"
+
 namespace choreo::cli {
 namespace {
 
@@ -43,7 +46,7 @@ std::string KeysText(const WrittenDance& dance) {
     }
     if (!furthest || key.correction_m > furthest->correction_m) furthest = &key;
   }
-  std::string text = Format("%zd key pose%s", keys, keys == 1 ? "" : "s");
+  std::string text = Counted(keys, "key pose");
   if (in_file.keys > 0) {
     text += between.keys > 0 ? Format(": %zu", in_file.keys) : std::string(", each");
     text += " hit within " + in_file.Text() + ", measured in the file";
