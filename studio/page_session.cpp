@@ -166,6 +166,11 @@ void PageSession::StartDance(uint32_t call, const Dance& request) {
 }
 
 void PageSession::ReadDance(uint32_t call, Dancing* dancing) {
+  // Before the page hears of the end, as it may use the number again at once.
+  const auto end = [&] {
+    const std::lock_guard lock(mutex_);
+    dancing->over = true;
+  };
   try {
     while (const std::optional<client::Message> message = dancing->dance->Next()) {
       Response response;
@@ -184,15 +189,17 @@ void PageSession::ReadDance(uint32_t call, Dancing* dancing) {
             }
           },
           *message);
+      if (response.dance().has_summary()) end();
       if (response.response_case() != Response::RESPONSE_NOT_SET) Answer(call, std::move(response));
     }
+    end();
   } catch (const Error& error) {
+    end();
     if (error.code() != ErrorCode::kCancelled) Fail(call, error.what());
   } catch (const std::exception& error) {
+    end();
     Fail(call, error.what());
   }
-  const std::lock_guard lock(mutex_);
-  dancing->over = true;
 }
 
 void PageSession::EndDance(uint32_t call) {

@@ -3,9 +3,12 @@
 #include <signal.h>
 
 #include <algorithm>
+#include <chrono>
 #include <future>
+#include <semaphore>
 #include <span>
 #include <stdexcept>
+#include <thread>
 #include <utility>
 
 #include "client/authoring/keys/key_file.h"
@@ -68,6 +71,28 @@ TEST_F(StudioTest, AnswersAFailureOfADancesThread) {
   dance.set_call(2);
   session.Receive(dance);
   EXPECT_EQ(answered.get_future().get(), "the page is gone");
+}
+
+// Its reader still waits for the server's status when the page hears of the end.
+TEST_F(StudioTest, ANumberIsFreeOnceItsDanceHasEnded) {
+  const StudioContext context({.addresses = {server_.address()}}, {}, {});
+  std::binary_semaphore ended(0), again(0);
+  std::promise<std::string> answered;
+  PageSession session(context, [&, dances = 0](const Response& response) mutable {
+    if (response.has_failure()) answered.set_value(response.failure().message());
+    if (!response.dance().has_summary()) return;
+    if (++dances == 2) return answered.set_value("");
+    ended.release();
+    again.acquire();
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));  // a reader that is late
+  });
+  Request dance = DanceRequest(10, 1);
+  dance.set_call(2);
+  session.Receive(dance);
+  ended.acquire();
+  again.release();
+  session.Receive(dance);
+  EXPECT_EQ(answered.get_future().get(), "");
 }
 
 TEST_F(StudioTest, ASecondDanceOfANumberLeavesTheFirst) {
