@@ -144,13 +144,13 @@ export class Journal {
       if (request.keyframe) {
         const at = hasMoment(request.keyframe) ? frameOf(request.keyframe, previous, rate) : -1;
         if (at < 0) continue; // it has no frame
+        previous = at;
         if (!request.keyframe.pose) {
           // A key without a pose does not move an existing key.
           if (at < frame) found.push(placeOf(id, at));
           if (!frames.has(id)) frames.set(id, at);
           continue;
         }
-        previous = at;
         frames.set(id, at);
       }
       if (frames.get(id) < frame) found.push(placeOf(id, frames.get(id)));

@@ -162,12 +162,13 @@ class Journal:
                 at = -1 if key.WhichOneof("when") is None else _frame_of(key, previous, rate)
                 if at < 0:
                     continue  # it has no frame
+                previous = at
                 if not key.HasField("pose"):  # a key without a pose does not move an existing key
                     if at < frame:
                         found.append((key.id, at))
                     frames.setdefault(key.id, at)
                     continue
-                previous = frames[key.id] = at
+                frames[key.id] = at
             if frames.get(key.id, frame) < frame:
                 found.append((key.id, frames[key.id]))
         return found

@@ -170,7 +170,7 @@ KeyRejected Timeline::RejectInvalid(const std::string& id, const std::optional<K
                                     std::string reason) {
   int64_t frame = -1;
   try {
-    if (when) frame = Resolve(*when, "");
+    if (when) previous_frame_ = frame = Resolve(*when, "");
   } catch (const Error&) {  // the moment itself is invalid
   }
   size_t length = std::min(id.size(), kMaxIdLength);

@@ -74,7 +74,7 @@ class Timeline {
   std::optional<KeyRejected> Set(Key key, const KeyMoment& when, const std::string& field);
 
   /// Rejects an unusable key: keys and frames stay, but Remove and Complete know its id as
-  /// rejected. `when`: none if the message has no moment.
+  /// rejected, and AfterPrevious counts from its moment. `when`: none if the message has no moment.
   KeyRejected RejectInvalid(const std::string& id, const std::optional<KeyMoment>& when,
                             std::string reason);
 

@@ -136,6 +136,23 @@ TEST(Timeline, AnIntervalMayBeLongerThanATransition) {
   EXPECT_EQ(timeline.End(), 30 + 2 * kMaxTransitionFrames + 1);
 }
 
+TEST(Timeline, IntervalsCountFromRejectedKeysToo) {
+  Timeline timeline({.granted = 0});
+  Set(timeline, "a", AtFrame{30});
+  EXPECT_EQ(timeline.RejectInvalid("b", AfterPrevious{30}, "its pose is wrong").frame, 60);
+  EXPECT_EQ(Set(timeline, "c", AfterPrevious{30}), std::nullopt);
+  timeline.GenerateUntil(20);
+  EXPECT_EQ(Set(timeline, "late", AtFrame{10})->code, KeyRejected::Code::kTooLate);
+  EXPECT_EQ(Set(timeline, "d", AfterPrevious{90}), std::nullopt);
+  // Those without a moment of the dance do not count.
+  EXPECT_EQ(timeline.RejectInvalid("e", std::nullopt, "it has no moment").frame, -1);
+  EXPECT_EQ(timeline.RejectInvalid("f", AfterPrevious{1}, "it is too near").frame, -1);
+  EXPECT_EQ(Set(timeline, "g", AfterPrevious{10}), std::nullopt);
+  timeline.Complete();
+  EXPECT_EQ(Drain(timeline),
+            (std::vector<Span>{{0, 31, "a"}, {31, 91, "c"}, {91, 101, "d"}, {101, 111, "g"}}));
+}
+
 TEST(Timeline, KeysAreEditedAfterTheFrontier) {
   Timeline timeline({});
   timeline.GenerateUntil(0);
