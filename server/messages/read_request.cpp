@@ -110,6 +110,8 @@ ValidGroup ToGroupRequest(const v1::GenerateTransitionRequest& message, const Mo
   }
   if (message.config().has_generate_until())
     throw InvalidArgument("config.generate_until", "is for StreamDance");
+  if (message.config().reject_invalid_keys())
+    throw InvalidArgument("config.reject_invalid_keys", "is for StreamDance");
   request.frames = message.frames();
   request.candidates = std::max(
       1, static_cast<int>(CheckedIn(message.candidates(), 0, kMaxCandidates, "candidates")));

@@ -180,6 +180,8 @@ INSTANTIATE_TEST_SUITE_P(
          grpc::StatusCode::NOT_FOUND},
         {"GenerateUntil", With("config { generate_until: 5 }"), "config.generate_until",
          "StreamDance"},
+        {"RejectInvalidKeys", With("config { reject_invalid_keys: true }"),
+         "config.reject_invalid_keys", "StreamDance"},
         {"EmptyHistory", With("config { history {} }"), "config.history.poses", "at least 1"},
         {"HistoryWithoutRoot",
          [](auto& r) {
