@@ -32,9 +32,9 @@ _MOST_TURN = {"collar": 60, "wrist": 90, "ankle": 80, "foot": 60, "toe": 60, "sp
 
 def read_keys(file: typing.Union[str, bytes, typing.Mapping[str, typing.Any]], skeleton: choreography.Skeleton) -> list[dict]:
     """Reads the keys of a key file, given as its text or as parsed JSON, as requests for stream_dance: [{"keyframe": ...}, ...]. A held key
-    becomes several keys. The keys are in order of time, unless some have a time and others a frame. Times must be in seconds: counts of a song
-    ("9c") require its beats, which only the `choreo` program finds. Poses in numbers must be `rotations`. Raises ChoreoError. Warns about a jump
-    without a place, which is danced standing on the floor."""
+    becomes several keys. A key without an id is called by its place in the file, from 1: "key2". The keys are in order of time, unless some have
+    a time and others a frame. Times must be in seconds: counts of a song ("9c") require its beats, which only the `choreo` program finds. Poses
+    in numbers must be `rotations`. Raises ChoreoError. Warns about a jump without a place, which is danced standing on the floor."""
     require_skeleton(skeleton)
     content = _parsed(file) if isinstance(file, (str, bytes, os.PathLike)) else file
     keys = content.get("keyframes") if isinstance(content, typing.Mapping) else None
