@@ -55,7 +55,7 @@ await inStudio(async ({ page, until, settle, rest, message, frames, give, downlo
 
   await check('it is saved, opened again, and danced by the command line frame for frame', async () => {
     const text = readFileSync(await download(() => page.getByRole('button', { name: 'Save' }).click()), 'utf8');
-    assert.equal(JSON.parse(text).path.points.length, await page.evaluate(() => window.choreo.project.value.path.length));
+    assert.equal(JSON.parse(text).controls.root_path.frames.length, await page.evaluate(() => window.choreo.project.value.path.length));
     await give(['clicks.json', text]);
     await settle();
     const here = readFileSync(await download(() => page.getByLabel('Export the dance').selectOption('bvh')), 'utf8');
