@@ -4,7 +4,7 @@
 set -euo pipefail
 images=$(cd "$(dirname "$0")/../docs/images" && pwd)
 while read -r from to; do
-  ffmpeg -nostdin -v error -y -i "$1/$from-light.png" -vf scale=1200:-1:flags=lanczos -q:v 5 "$images/$to.jpg"
+  ffmpeg -nostdin -v error -y -i "$1/$from-light.png" -vf scale=1200:-1:flags=lanczos -q:v 6 "$images/$to.jpg"
 done <<'LIST'
 1600 studio
 pose-1600 studio_parts
