@@ -29,7 +29,10 @@ class PlanStander {
         skeleton_(context.skeleton),
         feet_(context.skeleton),
         plan_(*plan),
-        frames_(static_cast<int>(plan->size())) {
+        frames_(static_cast<int>(plan->size())),
+        carried_before_(
+            !CarriersOf(skeleton_, feet_, JointPositions(skeleton_, context.history.back()))
+                 .empty()) {
     for (const Pose& pose : plan_) {
       planned_.push_back(ForwardKinematics(skeleton_, pose));
       carriers_.push_back(CarriersOf(skeleton_, feet_, planned_.back().positions));
@@ -58,6 +61,7 @@ class PlanStander {
         offset_ = PelvisOffset(Supports(), centres_.front() - context_.offset_before.col(1),
                                {.returns = context_.keyed,
                                 .heights_alone = context_.has_path,
+                                .carried_before = carried_before_,
                                 .before = context_.offset_before,
                                 .fps = context_.fps,
                                 .options = context_.options});
@@ -174,6 +178,7 @@ class PlanStander {
       SupportFrame& support = supports[i];
       support.centre = centres_[i + 1] - offset_.col(frame);
       support.support = carriers_[i];
+      support.carried = !carriers_[i].empty();
       const Eigen::Matrix3Xd& at = planned_[i].positions;
       for (size_t side = 0; side < 2; ++side) {
         if (!Stands(side, frame)) continue;
@@ -282,6 +287,7 @@ class PlanStander {
   const FeetAtRest feet_;
   std::vector<Pose>& plan_;
   const int frames_;
+  const bool carried_before_;                           // by other joints than the feet's
   std::vector<JointPlacement> planned_;                 // the plan as proposed
   std::vector<std::vector<Eigen::Vector2d>> carriers_;  // by frame
   std::vector<Eigen::Vector3d> centres_;

@@ -10,7 +10,8 @@
 namespace choreo {
 namespace {
 
-constexpr int kRounds = 3;
+constexpr int kMostRounds = 12;
+constexpr double kConverged = 0.001;  // metres that a round moves the pelvis at most
 constexpr double kPushSeconds =
     0.27;  // s before and after a flight in which legs may push as hard as gravity
 constexpr double kGive = 0.2;  // metres that a leap across a plan's end may leave it
@@ -70,6 +71,7 @@ class PelvisSolver {
         step_(1 / Square(rules.fps)),
         push_(static_cast<int>(std::lround(kPushSeconds * rules.fps))),
         offset_(Eigen::Matrix3Xd::Zero(3, count_)),
+        leaps_(frames.size()),
         pushes_(frames.size()) {
     const auto bears = [](const SupportFrame& frame) { return !frame.support.empty(); };
     const auto first = std::ranges::find_if(frames, bears);
@@ -80,6 +82,7 @@ class PelvisSolver {
       lands_ = Lands();
       takes_off_ = TakesOff();
     }
+    FindLeaps();
     for (int frame = 0; frame < count_; ++frame) {
       if (!Leaps(frame)) continue;
       for (int i = std::max(0, frame - push_); i < std::min(count_, frame + push_ + 1); ++i)
@@ -89,7 +92,7 @@ class PelvisSolver {
 
   Eigen::Matrix3Xd Solve() {
     if (moved_ <= 0) return offset_;
-    for (int round = 0; round < kRounds; ++round) {
+    for (int round = 0; round < kMostRounds; ++round) {
       LeastSquares problem(3 * moved_);
       for (int frame = -1; frame < count_; ++frame) AddSmoothness(frame, &problem);
       for (int frame = 0; frame < moved_; ++frame) {
@@ -101,7 +104,9 @@ class PelvisSolver {
         AddBalance(frame, 0, &problem);
         frame + 1 < count_ ? AddBalance(frame, Lever(frame), &problem) : AddCapture(&problem);
       }
+      const Eigen::Matrix3Xd before = offset_;
       offset_.leftCols(moved_) = problem.Solve().reshaped(3, moved_);
+      if ((offset_ - before).colwise().norm().maxCoeff() < kConverged) break;
     }
     return offset_;
   }
@@ -110,17 +115,28 @@ class PelvisSolver {
   const SupportFrame& At(int frame) const { return frames_[static_cast<size_t>(frame)]; }
   bool Flies(int frame) const { return At(frame).support.empty(); }
   // Whether the frame is in a flight whose length suits its height.
-  bool Leaps(int frame) const {
-    if (!Flies(frame) || last_borne_ < 0) return false;
-    if (frame < first_borne_) return lands_;
-    return frame < last_borne_ || takes_off_;
+  bool Leaps(int frame) const { return leaps_[static_cast<size_t>(frame)]; }
+  // Flights from feet to feet, and at the ends those that land and take off. While other joints
+  // are on the floor, legs can't push.
+  void FindLeaps() {
+    const auto carried = [this](int from, int to) {
+      return std::any_of(frames_.begin() + std::max(0, from),
+                         frames_.begin() + std::min(count_, to),
+                         [](const SupportFrame& frame) { return frame.carried; });
+    };
+    for (int from = 0, to = 0; from < count_; from = to + 1) {
+      for (to = from; to < count_ && Flies(to);) ++to;
+      const bool leaves = from > 0 ? !carried(from - push_, from) : lands_;
+      const bool arrives = to < count_ ? !carried(to, to + push_) : takes_off_;
+      std::fill(leaps_.begin() + from, leaps_.begin() + to, leaves && arrives);
+    }
   }
   // The distance that a body falls from rest in `frames` frames, metres.
   double Fall(int frames) const { return kGravity / 2 * step_ * Square(frames); }
   // Whether a body that flies before the first frame and falls freely lands near its plan. Feet
   // slightly above the floor in a recording are not a leap.
   bool Lands() const {
-    if (first_borne_ == 0 || first_borne_ == count_) return false;
+    if (first_borne_ == 0 || first_borne_ == count_ || rules_.carried_before) return false;
     const int frames = first_borne_ + 1;
     const double planned = Planned(-1).y() - Planned(first_borne_).y();
     const double fall = Fall(frames) - (Planned(0).y() - Planned(-1).y()) * frames;
@@ -240,6 +256,7 @@ class PelvisSolver {
   int first_borne_, last_borne_;  // frames with a standing foot
   // Whether the flight before first_borne_, and the one after last_borne_, are leaps.
   bool lands_ = false, takes_off_ = false;
+  std::vector<bool> leaps_;   // per frame
   std::vector<bool> pushes_;  // per frame: whether a leap is near
 };
 

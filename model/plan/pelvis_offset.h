@@ -20,13 +20,15 @@ struct SupportFrame {
   };
   std::vector<Leg> legs;
   std::vector<Eigen::Vector2d> support;  ///< (x, z) of joints on the floor; empty: a flight
+  bool carried = false;                  ///< whether other joints than the feet's are among them
   Eigen::Vector3d centre;                ///< of mass, smoothed
 };
 
 /// Limits on the motion of the pelvis, which moves the whole body.
 struct PelvisRules {
-  bool returns = false;        ///< zero in the last frame, which is a key
-  bool heights_alone = false;  ///< only heights move, as a path fixes the floor position
+  bool returns = false;         ///< zero in the last frame, which is a key
+  bool heights_alone = false;   ///< only heights move, as a path fixes the floor position
+  bool carried_before = false;  ///< SupportFrame::carried in the frame before the first
   /// The offset in the two frames before the first, oldest first.
   Eigen::Matrix<double, 3, 2> before = Eigen::Matrix<double, 3, 2>::Zero();
   double fps;
@@ -35,10 +37,11 @@ struct PelvisRules {
 
 /// Computes the pelvis's offset from the plan, [3, frames], metres. Minimises its squared
 /// acceleration and length, subject to three conditions: legs reach their feet; the centre of mass
-/// and the zero moment point stay over the feet; jumps fall at 9.81 m/s², from floor to floor, to a
-/// key in the air, or from the air to the floor. `centre_before`: the plan's centre of mass in the
-/// frame before the first. Hulls and legs are not linear, so a few rounds linearise again at their
-/// nearest points; the remaining error never grows. Pure.
+/// and the zero moment point stay over the feet; jumps fall at 9.81 m/s², from feet to feet, to a
+/// key in the air, or from the air to the feet. A body that rises from its knees, hands or seat, or
+/// goes down on them, does not jump. `centre_before`: the plan's centre of mass in the frame before
+/// the first. Hulls and legs are not linear, so a few rounds linearise again at their nearest
+/// points; the remaining error never grows. Pure.
 Eigen::Matrix3Xd PelvisOffset(const std::vector<SupportFrame>& frames,
                               const Eigen::Vector3d& centre_before, const PelvisRules& rules);
 

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "model/motion/support.h"
@@ -74,6 +75,50 @@ TEST(PelvisOffset, FallsInFlight) {
   const Eigen::Matrix3Xd offset = PelvisOffset(frames, {0, kHeight, 0}, {.fps = kFps});
   for (int i = 27; i < 33; ++i) EXPECT_NEAR(Acceleration(frames, offset, i), -kGravity, 1.5) << i;
   EXPECT_GT(offset(1, 30), offset(1, 20) + 0.05);  // so it leaps
+}
+
+// Whoever rises from her hands or seat has no legs to jump with, also shortly afterwards.
+TEST(PelvisOffset, RisesFromTheFloorWithoutALeap) {
+  for (const int feet_from : {30, 21}) {
+    std::vector<SupportFrame> frames = Still(0);
+    Fly(&frames, 0, 20);
+    for (size_t i = 0; i < 20; ++i) {
+      frames[i].support = {{0, 0}};
+      frames[i].carried = true;
+    }
+    Fly(&frames, 20, feet_from);
+    if (feet_from < 25) Fly(&frames, 25, 35);
+    const Eigen::Matrix3Xd offset = PelvisOffset(frames, {0, kHeight, 0}, {.fps = kFps});
+    EXPECT_LT(offset.row(1).cwiseAbs().maxCoeff(), 0.01) << feet_from;
+    std::ranges::reverse(frames);
+    const Eigen::Matrix3Xd down = PelvisOffset(frames, {0, kHeight, 0}, {.fps = kFps});
+    EXPECT_LT(down.row(1).cwiseAbs().maxCoeff(), 0.01) << feet_from;
+  }
+  std::vector<SupportFrame> frames = Still(0);
+  Fly(&frames, 0, 6);
+  for (int i = 0; i < 6; ++i)
+    frames[static_cast<size_t>(i)].centre.y() += 0.125 * (1 + std::cos(i * M_PI / 6));
+  const auto moved = [&](bool carried_before) {
+    const PelvisRules rules{.carried_before = carried_before, .fps = kFps};
+    const Eigen::Matrix3Xd offset = PelvisOffset(frames, {0, kHeight + 0.25, 0}, rules);
+    return offset.row(1).cwiseAbs().maxCoeff();
+  };
+  EXPECT_GT(moved(false), 0.02);
+  EXPECT_LT(moved(true), 0.005);
+}
+
+// Legs that are long enough once the body moves over its feet must not lift it as well.
+TEST(PelvisOffset, FindsTheLeastOfBalanceAndReach) {
+  std::vector<SupportFrame> frames = Still(0);
+  for (int i = 10; i < 40; ++i) {
+    SupportFrame& frame = frames[static_cast<size_t>(i)];
+    frame.legs = {{.to_ankle = {0, -0.3, -0.8}, .length = 0.85}};
+    frame.support = {{0, -0.8}};
+  }
+  const Eigen::Matrix3Xd offset =
+      PelvisOffset(frames, {0, kHeight, 0}, {.returns = true, .fps = kFps});
+  EXPECT_LT(offset.row(2).minCoeff(), -0.1);
+  EXPECT_LT(offset.row(1).cwiseAbs().maxCoeff(), 0.03);
 }
 
 // Plans end at keys, and a key in the air cuts a flight in two.
