@@ -11,6 +11,7 @@ import { setTimeout as sleep } from 'node:timers/promises';
 import { fileURLToPath } from 'node:url';
 import { ChoreoClient, ChoreoError, pose } from '../../client/node/src/index.js';
 import { clicks, live, pcm, wav } from '../../examples/node/music.js';
+import { positive, whole } from '../../examples/node/program.js';
 
 const address = process.env.CHOREO_SERVER;
 const folder = fileURLToPath(new URL('../../examples/node/', import.meta.url));
@@ -290,16 +291,16 @@ test('live_edit.js changes keys on the way', async () => {
 
 test('options that are no numbers, files of other kinds, and songs that are missing, are named', async () => {
   for (const seconds of ['abc', '-3', '0']) {
-    const { code, err } = await program('stream_dance.js', `--seconds=${seconds}`);
-    assert.equal(code, 1);
-    assert.equal(err, `--seconds: ${seconds} is not a number above 0\n`);
+    assert.throws(() => positive({ seconds }, 'seconds'), { code: '--seconds', message: `${seconds} is not a number above 0` });
   }
   for (const seed of ['-1', '1.5', 'NaN', '18446744073709551616']) {
-    for (const name of ['stream_dance.js', 'live_edit.js', 'transition.js']) {
-      const { code, err } = await program(name, `--seed=${seed}`);
-      assert.equal(code, 1);
-      assert.equal(err, `--seed: ${seed} is not a whole number from 0 to 18446744073709551615\n`);
-    }
+    assert.throws(() => whole({ seed }, 'seed'), { code: '--seed', message: `${seed} is not a whole number from 0 to 18446744073709551615` });
+  }
+  const endless = await program('stream_dance.js', '--seconds=0');
+  assert.deepEqual([endless.code, endless.err], [1, '--seconds: 0 is not a number above 0\n']);
+  for (const name of ['stream_dance.js', 'live_edit.js', 'transition.js']) {
+    const { code, err } = await program(name, '--seed=1.5');
+    assert.deepEqual([code, err], [1, '--seed: 1.5 is not a whole number from 0 to 18446744073709551615\n']);
   }
   const wrong = await program('stream_dance.js', '--out', '/absent/dance.npz');
   assert.deepEqual([wrong.code, wrong.err], [1, '--out: /absent/dance.npz does not end with .json\n']);

@@ -404,7 +404,7 @@ test('calls take turns at the addresses of a list', () =>
 test('a server that drains says so, and is left at once', () =>
   withServer(['--drain-seconds', '60'], (one) =>
     withServer([], (two) =>
-      withClient(one.address, {}, async (holder) => {
+      withClient(one.address, { retry: 0 }, async (holder) => {
         async function* silence() {
           yield { config: { audio_format: pcm } };
           await new Promise(() => {});
