@@ -21,8 +21,6 @@
 namespace choreo {
 namespace {
 
-const FlowTraining kTraining;
-
 // Adapts another model's weights to the styles of `model`: a style that both have keeps its
 // weights, a new one begins at zero.
 void KeepStyles(const std::vector<std::string>& before, const ContinuousFlowImpl& model,
@@ -50,8 +48,10 @@ void KeepStyles(const std::vector<std::string>& before, const ContinuousFlowImpl
 
 class FlowMatchingRun : public TrainingRun {
  public:
-  FlowMatchingRun(const TrainOptions& options, const TrainingClips& clips)
+  FlowMatchingRun(const TrainOptions& options, const TrainingClips& clips,
+                  const FlowTraining& training)
       : TrainingRun(options, clips),
+        training_(training),
         device_(options.device),
         train_(clips.train),
         validation_(clips.validation) {
@@ -109,32 +109,32 @@ class FlowMatchingRun : public TrainingRun {
     Random random = RandomOf(step);
     const int most = train_.Longest(model_->config().history_frames);
     const int frames = std::min(DrawLength(&random), most);
-    WindowClips::Variation variation = kTraining.shares;
+    WindowClips::Variation variation = training_.shares;
     variation.tempo = options().tempo;
-    if (random.Uniform() < kTraining.no_labels)
+    if (random.Uniform() < training_.no_labels)
       variation.beats = variation.path = variation.style = 0;
     int window = frames, to_key = frames;
     const double kind = random.Uniform();
-    if (kind < kTraining.no_key) {
+    if (kind < training_.no_key) {
       variation.no_key = 1;
-      window = to_key = std::min(std::max(frames, kTraining.no_key_frames), most);
-    } else if (kind < kTraining.no_key + kTraining.far_key) {
-      window = std::min(kTraining.far_frames, most);
-      const auto nearer = static_cast<int>(random.Integer(0, kTraining.far_places));
-      to_key = std::min(kSightFrames - kTraining.far_step * nearer, most);
+      window = to_key = std::min(std::max(frames, training_.no_key_frames), most);
+    } else if (kind < training_.no_key + training_.far_key) {
+      window = std::min(training_.far_frames, most);
+      const auto nearer = static_cast<int>(random.Integer(0, training_.far_places));
+      to_key = std::min(kSightFrames - training_.far_step * nearer, most);
     }
     return train_.Draw(matching_->parts(), WindowsOf(options().batch, window), window, to_key,
                        variation, &random);
   }
 
   void AfterStep() override {
-    Copy(1 - std::min(kTraining.average, (1.0 + step()) / (10.0 + step())));
+    Copy(1 - std::min(training_.average, (1.0 + step()) / (10.0 + step())));
   }
 
   NamedFigures Validate() override {
     const torch::NoGradGuard no_grad;
     const auto network = MakeTorchFlowNetwork(Blended(), device_);
-    return CompareWindows(*network, matching_->parts(), validation_, kTraining.validation_windows);
+    return CompareWindows(*network, matching_->parts(), validation_, training_.validation_windows);
   }
 
   void Export(Safetensors* state) const override {
@@ -160,16 +160,16 @@ class FlowMatchingRun : public TrainingRun {
     return SaveContinuousFlow(path, blended, weights, card);
   }
   std::string Limits() const override {
-    return "Trained on windows of up to " + std::to_string(kTraining.lengths.back()) +
+    return "Trained on windows of up to " + std::to_string(training_.lengths.back()) +
            " frames at 30 fps; longer transitions are cut. It hears beats, not sounds. Feet slide "
            "without footwork. What the data lacks (lying, acrobatics, props, partners) it "
            "can't do.";
   }
 
  private:
-  static int DrawLength(Random* random) {
-    const auto which = random->Integer(0, std::ssize(kTraining.lengths));
-    return kTraining.lengths[static_cast<size_t>(which)];
+  int DrawLength(Random* random) const {
+    const auto which = random->Integer(0, std::ssize(training_.lengths));
+    return training_.lengths[static_cast<size_t>(which)];
   }
 
   // Moves the average towards the weights by `share` of the difference.
@@ -196,9 +196,9 @@ class FlowMatchingRun : public TrainingRun {
     const VariancePowers powers =
         MeasureVariancePowers(model_->Parts().prior, StatisticsBatches(1));
     set(powers, none);
-    set(powers, MeasureWindows(StatisticsBatches(kTraining.shares.energy)));
+    set(powers, MeasureWindows(StatisticsBatches(training_.shares.energy)));
     std::vector<WindowRequest> of_all_lengths;
-    for (const int frames : kTraining.energy_frames) {
+    for (const int frames : training_.energy_frames) {
       for (WindowBatch& batch : StatisticsBatches(1, frames))
         std::ranges::move(batch.requests, std::back_inserter(of_all_lengths));
     }
@@ -231,11 +231,11 @@ class FlowMatchingRun : public TrainingRun {
     FlowModelParts parts = model->Parts();
     parts.response = {};
     std::vector<WindowRequest> requests;
-    for (uint32_t i = 0; i < static_cast<uint32_t>(kTraining.response_batches); ++i) {
+    for (uint32_t i = 0; i < static_cast<uint32_t>(training_.response_batches); ++i) {
       Random random(kValidationSeed, i + 1);
       const int frames = std::min(60, validation_.Longest(parts.config.history_frames));
       WindowBatch batch =
-          validation_.Draw(parts, kTraining.measured_windows, frames, frames,
+          validation_.Draw(parts, training_.measured_windows, frames, frames,
                            {.no_key = i % 2 == 0 ? 0.0 : 1.0, .energy = 1}, &random);
       for (WindowRequest& request : batch.requests) {
         request.controls[kVelocityFactors].requested.assign(kBodyParts, true);
@@ -249,11 +249,11 @@ class FlowMatchingRun : public TrainingRun {
   // Uses many windows, because dancers seldom turn far.
   std::vector<WindowRequest> KeyedRequests() const {
     std::vector<WindowRequest> requests;
-    for (uint32_t i = 0; i < static_cast<uint32_t>(kTraining.turn_batches); ++i) {
+    for (uint32_t i = 0; i < static_cast<uint32_t>(training_.turn_batches); ++i) {
       Random random(options().seed + 4, i + 1);
       const int frames =
           std::min(DrawLength(&random), train_.Longest(model_->config().history_frames));
-      WindowBatch batch = train_.Draw(model_->Parts(), kTraining.measured_windows, frames, frames,
+      WindowBatch batch = train_.Draw(model_->Parts(), training_.measured_windows, frames, frames,
                                       {.mirror = 0.5, .tempo = options().tempo}, &random);
       std::ranges::move(batch.requests, std::back_inserter(requests));
     }
@@ -263,16 +263,17 @@ class FlowMatchingRun : public TrainingRun {
   std::vector<WindowBatch> StatisticsBatches(double energy, int most = 60) const {
     const int frames = std::min(most, train_.Longest(model_->config().history_frames));
     std::vector<WindowBatch> batches;
-    for (int i = 0; i < kTraining.prior_batches; ++i) {
+    for (int i = 0; i < training_.prior_batches; ++i) {
       Random random(options().seed + 3, static_cast<uint32_t>(i + 1));
       batches.push_back(train_.Draw(
-          model_->Parts(), kTraining.measured_windows, frames, frames,
+          model_->Parts(), training_.measured_windows, frames, frames,
           {.mirror = 0.5, .no_key = i % 3 == 0 ? 1.0 : 0.0, .energy = energy, .style = 1},
           &random));
     }
     return batches;
   }
 
+  FlowTraining training_;
   torch::Device device_;
   WindowClips train_, validation_;
   ContinuousFlow model_{nullptr}, average_{nullptr};
@@ -283,6 +284,10 @@ class FlowMatchingRun : public TrainingRun {
 
 }  // namespace
 
-void TrainContinuousFlow(const TrainOptions& options) { TrainBy<FlowMatchingRun>(options); }
+void TrainContinuousFlow(const TrainOptions& options) { TrainContinuousFlow(options, {}); }
+
+void TrainContinuousFlow(const TrainOptions& options, const FlowTraining& training) {
+  TrainBy<FlowMatchingRun>(options, training);
+}
 
 }  // namespace choreo

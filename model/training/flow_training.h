@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "model/training/trainer.h"
 #include "model/training/window_clips.h"
 
 namespace choreo {
@@ -44,5 +45,8 @@ struct FlowTraining {
   std::array<int, 3> energy_frames = {20, 60, 90};
   int validation_windows = 24;
 };
+
+/// TrainContinuousFlow of trainer.h with other settings than the default's.
+void TrainContinuousFlow(const TrainOptions& options, const FlowTraining& training);
 
 }  // namespace choreo

@@ -113,10 +113,12 @@ void TrainingRun::Go() {
     }
   }
   if (last < total) return;
-  if (figures_.empty()) figures_ = Validate();  // all steps were already done
-  const std::string hash = WriteCheckpoint();
+  if (hash_.empty()) {  // all steps were already done
+    figures_ = Validate();
+    WriteCheckpoint();
+  }
   std::printf("checkpoint %s, content hash %s\n",
-              (options_.run / "checkpoint.safetensors").string().c_str(), hash.c_str());
+              (options_.run / "checkpoint.safetensors").string().c_str(), hash_.c_str());
 }
 
 void TrainingRun::Descend(const LossTerms& terms) {
@@ -195,8 +197,8 @@ std::string TrainingRun::BaseHash() const {
   return base_.is_null() ? "" : base_.at("hash").get<std::string>();
 }
 
-std::string TrainingRun::WriteCheckpoint() {
-  return SaveModel(options_.run / "checkpoint.safetensors", Card());
+void TrainingRun::WriteCheckpoint() {
+  hash_ = SaveModel(options_.run / "checkpoint.safetensors", Card());
 }
 
 void TrainingRun::Save() {

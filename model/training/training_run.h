@@ -87,7 +87,7 @@ class TrainingRun {
   nlohmann::json Card() const;
   /// Hash of the base checkpoint; empty: from scratch.
   std::string BaseHash() const;
-  std::string WriteCheckpoint();
+  void WriteCheckpoint();
   void Save();
   void Load();
 
@@ -101,16 +101,18 @@ class TrainingRun {
   double seconds_ = 0;
   LossFigures losses_;
   NamedFigures figures_;  // from the last report
+  std::string hash_;      // content hash of the checkpoint; empty: this process wrote none
   Curves curves_;
 };
 
 /// Loads the clips and makes a run of class `Run`.
-template <typename Run, typename Options>
-void TrainBy(const Options& options) {
+/// `settings`: whatever else it takes.
+template <typename Run, typename Options, typename... Settings>
+void TrainBy(const Options& options, const Settings&... settings) {
   options.Check();
   const TrainingClips clips = {LoadClips(options.data, options.splits, kTrainGroup),
                                LoadClips(options.data, options.splits, kValidationGroup)};
-  Run(options, clips).Go();
+  Run(options, clips, settings...).Go();
 }
 
 /// The seed of validation, the same in every run.

@@ -12,6 +12,7 @@
 #include "model/core/error.h"
 #include "model/core/safetensors.h"
 #include "model/training/adam.h"
+#include "model/training/flow_training.h"
 #include "tests/support/synthetic_clips.h"
 #include "tests/support/temporary_folder.h"
 
@@ -35,12 +36,21 @@ class TrainerTest : public testing::Test {
     return options;
   }
 
+  // As few windows as each measurement needs. Measuring takes the time of such short runs.
+  static void Train(const TrainOptions& options) {
+    TrainContinuousFlow(options, {.measured_windows = 36,
+                                  .prior_batches = 9,
+                                  .turn_batches = 3,
+                                  .response_batches = 3,
+                                  .validation_windows = 2});
+  }
+
   TemporaryFolder folder_;
 };
 
 TEST_F(TrainerTest, ContinuousFlowResumesExactlyAndContinuesFromAnother) {
   TrainOptions options = Options("whole", 2);
-  TrainContinuousFlow(options);
+  Train(options);
   const auto weights = [](const TrainOptions& run) {
     return ReadSafetensors(run.run / "checkpoint.safetensors");
   };
@@ -48,34 +58,35 @@ TEST_F(TrainerTest, ContinuousFlowResumesExactlyAndContinuesFromAnother) {
   options.run = folder_.path() / "parts";
   for (const int64_t stop : {1, 0}) {
     options.stop_after = stop;
-    TrainContinuousFlow(options);
+    Train(options);
     options.resume = true;
   }
   const Safetensors parts = weights(options);
+  EXPECT_EQ(parts.tensors.size(), whole.tensors.size());
   for (const auto& [name, tensor] : whole.tensors)
     EXPECT_EQ(parts.tensors.at(name).data, tensor.data) << name;
 
   TrainOptions further = Options("further", 1);
   further.from = options.run / "checkpoint.safetensors";
   further.rate = 0;  // the base's statistics stay
-  TrainContinuousFlow(further);
+  Train(further);
   EXPECT_EQ(weights(further).tensors.at("head.weight").data, whole.tensors.at("head.weight").data);
 }
 
 TEST_F(TrainerTest, BlendsWithTheWeightsThatItStartedFrom) {
   TrainOptions base = Options("base", 1), further = Options("further", 2);
-  TrainContinuousFlow(base);
+  Train(base);
   further.from = base.run / "checkpoint.safetensors";
   further.keep_statistics = true;
   const auto bias = [](const TrainOptions& options) {
     return ReadSafetensors(options.run / "checkpoint.safetensors").tensors.at("head.bias").data;
   };
-  TrainContinuousFlow(further);
+  Train(further);
   const std::vector<float> before = bias(base), trained = bias(further);
   ASSERT_NE(before, trained);
   further.resume = true;  // rewrites the finished run
   further.blend = 0.25;
-  TrainContinuousFlow(further);
+  Train(further);
   const std::vector<float> blended = bias(further);
   for (size_t i = 0; i < blended.size(); ++i)
     EXPECT_FLOAT_EQ(blended[i], std::lerp(before[i], trained[i], 0.25F));
@@ -107,6 +118,7 @@ TEST_F(TrainerTest, UnusableOptionsAreNamed) {
   EXPECT_EQ(failure(options), "--blend");
 }
 
+// In a run of the usual size.
 TEST_F(TrainerTest, ResumesWithTheOriginalOptions) {
   TrainOptions options = Options("run", 2);
   options.stop_after = 1;
