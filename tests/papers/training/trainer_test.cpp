@@ -24,7 +24,7 @@ class PaperTrainerTest : public testing::Test {
  protected:
   void SetUp() override { WriteSyntheticData(folder_.path()); }
 
-  // A run of a few steps on the synthetic clips.
+  // A run of a few steps on the synthetic clips; flows are small.
   PaperOptions Options(const std::string& name, int64_t steps) const {
     PaperOptions options;
     options.preset = "ablation";
@@ -34,6 +34,8 @@ class PaperTrainerTest : public testing::Test {
     options.steps = steps;
     options.batch = 8;
     options.longest = 12;
+    options.flow.flow_steps = 2;
+    options.flow.hidden = 40;
     options.report_every = 2;
     return options;
   }
@@ -100,15 +102,15 @@ TEST_F(PaperTrainerTest, WithoutKeyLossRolloutsStillHaveGradients) {
 
 TEST_F(PaperTrainerTest, SizesAreOptionsAndWeightsTakeHalfTheBytes) {
   PaperOptions options = Options("sized", 1);
-  options.flow.flow_steps = 2;
-  options.flow.hidden = 40;
+  options.flow.flow_steps = 3;
+  options.flow.hidden = 48;
   options.flow.condition_width = 0;
   TrainFlow(options);
   const auto path = options.run / "checkpoint.safetensors";
   const Checkpoint checkpoint = LoadCheckpoint(path);
   const FlowConfig& config = checkpoint.model->config();
-  EXPECT_EQ(config.flow_steps, 2);
-  EXPECT_EQ(config.hidden, 40);
+  EXPECT_EQ(config.flow_steps, 3);
+  EXPECT_EQ(config.hidden, 48);
   EXPECT_EQ(config.condition_width, 0);
   uintmax_t numbers = 0;
   for (const auto& parameter : checkpoint.model->parameters()) numbers += parameter.numel();
