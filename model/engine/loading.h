@@ -63,16 +63,17 @@ std::string LicenceOf(const std::string& card);
 template <typename Checkpoint>
 ModelInfo InfoOf(const Checkpoint& checkpoint, const UsedKernels& kernels) {
   const auto& config = checkpoint.model->config();
-  return {.name = config.name,
-          .fingerprint = FingerprintOf(config.name, checkpoint.hash, kernels),
-          .weights = checkpoint.hash,
-          .packed_kernels = kernels.packed,
-          .licence = LicenceOf(checkpoint.card),
-          .card = checkpoint.card,
-          .skeleton = checkpoint.model->skeleton(),
-          .history_frames = config.history_frames,
-          .max_transition_frames = config.max_transition_frames,
-          .velocity_references = {}};
+  ModelInfo info;
+  info.name = config.name;
+  info.fingerprint = FingerprintOf(config.name, checkpoint.hash, kernels);
+  info.weights = checkpoint.hash;
+  info.packed_kernels = kernels.packed;
+  info.licence = LicenceOf(checkpoint.card);
+  info.card = checkpoint.card;
+  info.skeleton = checkpoint.model->skeleton();
+  info.history_frames = config.history_frames;
+  info.max_transition_frames = config.max_transition_frames;
+  return info;
 }
 
 /// The velocity reference "median", which every model with velocity factors has.

@@ -10,14 +10,12 @@
 #include <string_view>
 #include <vector>
 
-#include "model/core/grid.h"
 #include "model/core/limits.h"
 #include "model/core/valid.h"
+#include "model/messages/model_description.h"
 #include "model/motion/canonical.h"
 #include "model/motion/controls.h"
 #include "model/motion/motion.h"
-#include "model/motion/skeleton.h"
-#include "model/motion/velocity_factors.h"
 #include "model/plan/arrival.h"
 #include "model/plan/plan_options.h"
 
@@ -34,32 +32,16 @@ struct Hearing {
   explicit operator bool() const { return features > 0; }
 };
 
-/// A loaded model. Constant for the life of a sampler.
-struct ModelInfo {
-  std::string name;         ///< "default", "paper-f", ...
-  std::string fingerprint;  ///< model hash + build + kernel set: equal fingerprints give equal bits
-  std::string weights;      ///< hash of the checkpoint's content
-  std::string packed_kernels;  ///< PackedKernels::name of its kernels; empty: LibTorch
-  std::string licence;         ///< the weights' licence
-  std::string card;            ///< the model card, JSON
-  Skeleton skeleton;
-  double fps = kModelFps;               ///< rate at which the model runs
-  int history_frames = kHistoryFrames;  ///< tau
-  int max_transition_frames = kMaxTransitionFrames;
+/// A loaded model: what a server reports about it, and what its engine needs besides. Constant for
+/// the life of a sampler.
+struct ModelInfo : ModelDescription {
+  std::string weights = {};         ///< hash of the checkpoint's content
+  std::string packed_kernels = {};  ///< PackedKernels::name of its kernels; empty: LibTorch
   /// The frames from a transition's start within which the model sees a later key (LaterTarget). 0:
   /// it sees no later key.
   int sight_frames = 0;
-  double default_temperature = 0.3;
   double max_temperature = kMaxTemperature;  ///< higher values change nothing
-  bool takes_music = true;                   ///< false: its dances have no music
   Hearing hearing = {};
-  bool deterministic = false;              ///< seed, candidate and temperature change nothing
-  bool likelihood = false;                 ///< plans have exact likelihoods (Plan::log_likelihoods)
-  std::vector<std::string> controls = {};  ///< supported controls, by their names in kControls
-  /// The velocity references; at least one if the model takes velocity factors. The first,
-  /// "median", is the default.
-  std::vector<VelocityReference> velocity_references = {};
-  std::vector<std::string> styles = {};  ///< available for requests
   bool plan_stages = false;       ///< whether its plans pass kPlanStages (plan/plan_stages.h)
   PlanOptions plan_options = {};  ///< settings of kPlanStages and of footwork
 

@@ -26,23 +26,9 @@ std::optional<StyleFigures> FindStyleFigures(std::string_view weights) {
 }  // namespace
 
 ModelDescription DescribeModel(const ModelInfo& model) {
-  ModelDescription out{
-      .name = model.name,
-      .fingerprint = model.fingerprint,
-      .licence = model.licence,
-      .card = model.card,
-      .skeleton = model.skeleton,
-      .fps = model.fps,
-      .history_frames = model.history_frames,
-      .default_temperature = model.default_temperature,
-      .controls = model.controls,
-      .velocity_references = model.velocity_references,
-      .styles = model.styles,
-      .style_figures = FindStyleFigures(model.weights),
-      .takes_music = model.takes_music,
-      .likelihood = model.likelihood,
-      .deterministic = model.deterministic,
-      .max_transition_frames = std::min(model.max_transition_frames, kMaxTransitionFrames)};
+  ModelDescription out = model;
+  out.style_figures = FindStyleFigures(model.weights);
+  out.max_transition_frames = std::min(model.max_transition_frames, kMaxTransitionFrames);
   if (!out.takes_music) return out;
   // The lowest rate has the longest filter. Any frame far from the start shows the lead.
   constexpr int64_t kSomeFrame = 3'000;
