@@ -13,15 +13,16 @@
 #include "model/engine/packed/packed_flow_network.h"
 #include "model/flow/continuous_flow.h"
 #include "model/flow/flow_sampler.h"
+#include "model/flow/style_figures_file.h"
 #include "model/flow/torch_kernels.h"
 #include "model/papers/samplers/paper_samplers.h"
 
 namespace choreo {
 namespace {
 
-SamplerFactory LoadContinuousFlow(const Safetensors& content, const std::string& name,
+SamplerFactory LoadContinuousFlow(const Safetensors& content, const std::filesystem::path& path,
                                   const EngineRequest& request) {
-  const ContinuousFlowCheckpoint checkpoint = ParseContinuousFlow(content, name);
+  const ContinuousFlowCheckpoint checkpoint = ParseContinuousFlow(content, path.string());
   const ContinuousFlowConfig& config = checkpoint.model->config();
   const auto parts = std::make_shared<const FlowModelParts>(checkpoint.model->Parts());
   std::shared_ptr<const FlowNetwork> network;
@@ -42,6 +43,7 @@ SamplerFactory LoadContinuousFlow(const Safetensors& content, const std::string&
   info.controls = ControlNames();
   info.velocity_references = {MedianReference(config.median_factors)};
   info.styles = config.styles;
+  info.style_figures = ReadStyleFigures(path, checkpoint.hash);
   info.plan_stages = true;
   info.plan_options = config.plan;
   return [info, device = request.device.name(), parts, network] {
@@ -72,7 +74,7 @@ SamplerFactory Load(const std::filesystem::path& path, const EngineRequest& requ
         path.string(), std::to_string(bytes) + " bytes, the limit is " + std::to_string(kMaxBytes));
   }
   const Safetensors content = ReadSafetensors(path);
-  return HoldsContinuousFlow(content) ? LoadContinuousFlow(content, path.string(), request)
+  return HoldsContinuousFlow(content) ? LoadContinuousFlow(content, path, request)
                                       : LoadPaperModel(content, path.string(), request);
 } catch (const Error& error) {
   if (error.field().starts_with(path.string())) throw;

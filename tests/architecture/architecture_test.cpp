@@ -63,7 +63,7 @@ const std::vector<std::pair<std::string, std::set<std::string>>>& Modules() {
         {draw, {core, motion, body}},
         {messages, {core, motion}},
         {plan, {core, motion, messages}},
-        {flow, {core, motion, plan}},
+        {flow, {core, motion, messages, plan}},
         {engine, {core, motion, flow, plan}},
         {networks, {core, motion, flow}},
         {paper_samplers, {core, audio, motion, fit, plan, flow, engine, networks}},

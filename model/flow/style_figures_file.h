@@ -1,0 +1,23 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "model/messages/style_figures.h"
+
+namespace choreo {
+
+/// Reads how often a checkpoint's styles are recognised, from NAME.figures.json beside
+/// NAME.safetensors:
+///
+///     {"weights": "26bf...", "styles": {"recognised": 7.9, "chance": 6.25, "low": 7.2}}
+///
+/// `weights` is the content hash of the measured checkpoint. Whatever is in the checkpoint itself
+/// changes this hash, so figures cannot be there. None without the file, or if `hash` is another:
+/// they are of an earlier training. Throws Error(kInvalidArgument), whose field is the file, if it
+/// cannot be read.
+std::optional<StyleFigures> ReadStyleFigures(const std::filesystem::path& checkpoint,
+                                             const std::string& hash);
+
+}  // namespace choreo
