@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""Fills in the quotes of docs/figures/*.json on pages, so that they can't drift. scripts/evaluate.sh and scripts/train_papers.sh measure these;
-printed.json has the papers' own.
+"""Fills in the quotes of docs/figures/*.json on pages and beside the checkpoint default, so that they can't drift. scripts/evaluate.sh and
+scripts/train_papers.sh measure these; printed.json has the papers' own.
 
     scripts/quote_figures.py            writes
     scripts/quote_figures.py --check    changes nothing; fails where a page says something else
@@ -91,6 +91,14 @@ def quoted(page):
     return re.sub(r"<!-- (table|figure): (.*?) -->.*?<!-- end -->", write, page, flags=re.S)
 
 
+def style_figures():
+    """How often default's styles are recognised, as model/flow/style_figures_file.h reads it."""
+    weights = re.search(r"^Model default/(\w+),", json.loads((FIGURES / "liveliness.json").read_text())["summary"]).group(1)
+    (row,) = rows_of("liveliness", "liveliness_styles_dancedb")
+    styles = {"recognised": row["danced"], "chance": row["chance"], "low": row["danced interval"][0]}
+    return json.dumps({"weights": weights, "styles": styles}, indent=1) + "\n"
+
+
 if "--print" in sys.argv:
     for page in sys.argv[sys.argv.index("--print") + 1 :]:
         for quotation in re.findall(r"<!-- table: (.*?) -->", (ROOT / page).read_text()):
@@ -98,10 +106,10 @@ if "--print" in sys.argv:
             print(place + table(place, *columns))
     sys.exit()
 wrong = []
-for name in PAGES:
-    before = (ROOT / name).read_text()
-    after = quoted(before)
-    if after != before:
+quoting = {name: quoted((ROOT / name).read_text()) for name in PAGES}
+quoting["model/checkpoints/default.figures.json"] = style_figures()
+for name, after in quoting.items():
+    if after != (ROOT / name).read_text():
         wrong.append(name)
         if "--check" not in sys.argv:
             (ROOT / name).write_text(after)
