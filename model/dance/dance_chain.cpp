@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "model/core/error.h"
+#include "model/dance/transition/transition.h"
 
 namespace choreo {
 namespace {
@@ -16,12 +17,12 @@ constexpr size_t kMaxAhead = 1;  // transitions sampled ahead of the one being h
 /// One transition of the chain, from its submission until its last frame is handed out.
 class DanceChain::Transition : public Job {
  public:
-  Transition(std::shared_ptr<DanceChain> chain, DanceScore::Next next)
-      : Job(chain, static_cast<int>(next.inputs.segment.to - next.inputs.segment.from),
-            chain->start_time_ + chain->Seconds(next.inputs.segment.from - chain->first_frame_)),
+  Transition(std::shared_ptr<DanceChain> chain, TransitionInputs inputs)
+      : Job(chain, static_cast<int>(inputs.segment.to - inputs.segment.from),
+            chain->start_time_ + chain->Seconds(inputs.segment.from - chain->first_frame_)),
         chain_(*chain),
-        segment_(next.inputs.segment),
-        next_(std::move(next)) {}
+        segment_(inputs.segment),
+        inputs_(std::move(inputs)) {}
 
   void OnDone(const Error* failure) noexcept override {
     if (failure == nullptr || retired_) return;
@@ -57,12 +58,9 @@ class DanceChain::Transition : public Job {
 
  private:
   TransitionRun Prepare() override {
-    DanceScore::Next next = *std::exchange(next_, {});
-    next.inputs.manner = chain_.manner_;
-    next.inputs.seed = chain_.seed_;
-    next.inputs.music = next.music.Hear();
-    PreparedTransition prepared = PrepareTransition(chain_.model_, next.inputs);
-    beats_ = std::move(next.inputs.music.beats);
+    const TransitionInputs inputs = *std::exchange(inputs_, {});
+    PreparedTransition prepared = PrepareTransition(chain_.model_, inputs);
+    beats_ = std::move(prepared.beats);
     warnings_ = std::move(prepared.warnings);
     return std::move(prepared.run);
   }
@@ -76,7 +74,7 @@ class DanceChain::Transition : public Job {
 
   DanceChain& chain_;  // kept alive by Job
   const Segment segment_;
-  std::optional<DanceScore::Next> next_;  // until the transition is prepared
+  std::optional<TransitionInputs> inputs_;  // until the transition is prepared
   std::vector<Beat> beats_;
   std::vector<Warning> warnings_;
   std::atomic<bool> sampled_ = false;
@@ -207,13 +205,19 @@ void DanceChain::Proceed() {
   if (!jobs_.empty() && !jobs_.back()->sampled()) return;  // the next start is not known yet
   std::optional<DanceScore::Next> next = score_.TakeNext(jobs_.size(), Ready());
   if (!next) return;
-  const int64_t from = next->inputs.segment.from;
-  next->inputs.before = jobs_.empty() ? danced_ : jobs_.back()->StateBefore(from);
+  const int64_t from = next->segment.from;
+  TransitionInputs inputs{.manner = manner_,
+                          .seed = seed_,
+                          .controls = score_.controls(),
+                          .segment = std::move(next->segment),
+                          .before = jobs_.empty() ? danced_ : jobs_.back()->StateBefore(from),
+                          .noise_like = std::move(next->noise_like),
+                          .music = std::move(next->music)};
   // A dance that waited for its client's messages is due from now on. With its old start time it
   // would overtake dances that did not wait.
   start_time_ = std::max(start_time_, PlaybackClock() - Seconds(from - first_frame_));
   auto job = std::make_shared<Transition>(std::static_pointer_cast<DanceChain>(shared_from_this()),
-                                          *std::move(next));
+                                          std::move(inputs));
   try {
     queue_.Submit(job);
   } catch (const Error& error) {

@@ -124,7 +124,7 @@ void TransitionGroup::Impl::Begin() {
   const auto changes = controls_.Set(request_.controls, from, "controls");
   // All candidates have the same request, so it is checked once and its warnings are sent once.
   DanceMusic music(model_, request_, audio_.get(), /*detects=*/false);
-  auto [run, warnings] = PrepareTransition(
+  auto [run, beats, warnings] = PrepareTransition(
       model_, {.manner = request_,
                .seed = request_.seed,
                .controls = controls_,
@@ -133,7 +133,7 @@ void TransitionGroup::Impl::Begin() {
                           request_.continuation ? request_.continuation->stage : std::nullopt},
                .after = request_.after,
                .noise_like = Recurrence(model_.fps, request_.music_passages).Origins(from, end),
-               .music = music.PlanFor(segment_, end).Hear()});
+               .music = music.PlanFor(segment_, end)});
   for (const Warning& warning : controls_.BehindEnd(end)) warnings.push_back(warning);
   for (const auto& [label, changed] : changes) {
     if (changed.last < from) warnings.push_back(ControlsTooLate(label, changed.last, from));

@@ -188,9 +188,7 @@ std::optional<DanceScore::Next> DanceScore::TakeNext(size_t planned, int64_t rea
   // is ready.
   if (audio_ != nullptr && ready < std::max(rows_end, first_frame_ + 1)) return std::nullopt;
   recurrence_.StartTransition(segment->from);
-  return Next{{.controls = controls_,
-               .segment = *segment,
-               .noise_like = recurrence_.Origins(segment->from, segment->to)},
+  return Next{*segment, recurrence_.Origins(segment->from, segment->to),
               music_.PlanFor(*segment, rows_end)};
 }
 

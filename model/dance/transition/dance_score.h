@@ -13,7 +13,7 @@
 #include "model/dance/input/recurrence.h"
 #include "model/dance/timeline/timeline.h"
 #include "model/dance/timeline/warning.h"
-#include "model/dance/transition/transition.h"
+#include "model/messages/dance_event.h"
 
 namespace choreo {
 
@@ -23,9 +23,11 @@ using DanceEvents = std::vector<DanceEvent>;
 /// Depends only on the config, the order of messages, and the music. Not thread-safe.
 class DanceScore {
  public:
-  /// A transition that may be sampled.
+  /// A transition that may be sampled, and what the messages so far say about it. Its controls are
+  /// controls().
   struct Next {
-    TransitionInputs inputs;  ///< without the inputs that only the config has
+    Segment segment;
+    std::vector<int64_t> noise_like;  ///< TransitionSpec::noise_like
     PlannedMusic music;
   };
 
@@ -70,8 +72,7 @@ class DanceScore {
   /// below `ready`. Returns whether later rows can no longer change the result.
   bool TurnWithMusic(size_t planned, int64_t ready);
   /// Returns the transition after the first `planned`; none while it may change or needs rows from
-  /// `ready` on. The caller adds manner, seed, `before` and what it hears of the music. Call once
-  /// per transition.
+  /// `ready` on. Call once per transition.
   std::optional<Next> TakeNext(size_t planned, int64_t ready);
 
  private:

@@ -1,6 +1,7 @@
 #include "model/dance/transition/transition.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "model/motion/body_limits.h"
 #include "model/motion/kinematics.h"
@@ -42,7 +43,8 @@ void WarnOfPose(const Skeleton& skeleton, const TransitionSpec& spec, const std:
 }  // namespace
 
 PreparedTransition PrepareTransition(const ModelInfo& model, const TransitionInputs& inputs) {
-  const auto& [manner, seed, controls, segment, before, after, noise_like, music] = inputs;
+  const auto& [manner, seed, controls, segment, before, after, noise_like, planned] = inputs;
+  TransitionMusic music = planned.Hear();
   TransitionSpec spec;
   spec.frames = static_cast<int>(segment.to - segment.from);
   spec.first_frame = segment.from;
@@ -63,7 +65,7 @@ PreparedTransition PrepareTransition(const ModelInfo& model, const TransitionInp
     spec.history = FillHistory(model, before.history);
   }
   spec.stage = before.stage;
-  spec.music = music.rows;
+  spec.music = std::move(music.rows);
   spec.energy = music.energy;
   spec.beats = BeatsAround(SecondsOf(music.beats), model.fps, segment.from, spec.frames);
   spec.seed = seed ^ music.id;
@@ -79,7 +81,7 @@ PreparedTransition PrepareTransition(const ModelInfo& model, const TransitionInp
     warnings.push_back(
         IntervalTooShort(model.skeleton, key_id, spec.first_frame, spec.frames, *speed));
   }
-  return {std::move(run), std::move(warnings)};
+  return {std::move(run), std::move(music.beats), std::move(warnings)};
 }
 
 TransitionRun::TransitionRun(const ModelInfo& model, const TransitionSpec& world)

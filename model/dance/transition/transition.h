@@ -48,7 +48,7 @@ struct TransitionInputs {
   DancedState before = {};
   std::optional<Pose> after = {};        ///< TransitionSpec::after
   std::vector<int64_t> noise_like = {};  ///< TransitionSpec::noise_like
-  TransitionMusic music = {};
+  PlannedMusic music = {};
 };
 
 /// Generates one transition slice by slice: samples and processes a plan (plan/process_plan.h). A
@@ -103,10 +103,12 @@ class TransitionRun {
 
 struct PreparedTransition {
   TransitionRun run;
+  std::vector<Beat> beats;        ///< TransitionMusic::beats
   std::vector<Warning> warnings;  ///< about its controls and its key
 };
 
-/// Prepares one transition of a dance. Throws what TransitionRun's constructor throws.
+/// Prepares one transition of a dance: hears its music, and fills in its spec. Throws what
+/// TransitionRun's constructor throws.
 PreparedTransition PrepareTransition(const ModelInfo& model, const TransitionInputs& inputs);
 
 /// Generates a whole transition, then calls `danced` with its number of frames. Throws what

@@ -4,6 +4,7 @@
 
 #include <random>
 
+#include "model/dance/transition/transition.h"
 #include "tests/dance/dances.h"
 
 // Which transition follows from a dance's messages, without queue, threads and sampler.
@@ -34,9 +35,9 @@ TEST_F(DanceScoreTest, NothingFollowsBeforeItIsGranted) {
   Set(&score, KeyAt("a", 40));
   const auto next = score.TakeNext(0, 0);
   ASSERT_TRUE(next);
-  EXPECT_EQ(next->inputs.segment.from, 0);
-  EXPECT_EQ(next->inputs.segment.to, 41);
-  EXPECT_EQ(next->inputs.segment.key->id, "a");
+  EXPECT_EQ(next->segment.from, 0);
+  EXPECT_EQ(next->segment.to, 41);
+  EXPECT_EQ(next->segment.key->id, "a");
   EXPECT_FALSE(score.TakeNext(1, 0)) << "no key after it";
 }
 
@@ -65,7 +66,7 @@ TEST_F(DanceScoreTest, UnknownMusicIsDividedAlikeEachTimeItSounds) {
   score.GenerateUntil(640);
   std::vector<int64_t> ends;
   while (const auto next = score.TakeNext(0, feed.ready())) {
-    ends.push_back(next->inputs.segment.to);
+    ends.push_back(next->segment.to);
     score.Finish();
   }
   constexpr int64_t kLag = 255;
@@ -111,7 +112,7 @@ TEST_F(DanceScoreTest, AMessageOvertakesATransition) {
   score.GenerateUntil(20);
   const auto first = score.TakeNext(0, 0);
   ASSERT_TRUE(first);
-  const int64_t planned = first->inputs.segment.to;
+  const int64_t planned = first->segment.to;
   EXPECT_FALSE(score.Overtakes(20));
   Set(&score, KeyAt("a", 30));
   score.GenerateUntil(31);
@@ -132,11 +133,11 @@ TEST_F(DanceScoreTest, LaterMessagesChangeNothingOfATransition) {
   ASSERT_TRUE(score.TakeNext(0, feed.ready()));
   const auto next = score.TakeNext(1, feed.ready());
   ASSERT_TRUE(next);
-  const auto prepare = [&] {
-    TransitionInputs inputs = next->inputs;
-    inputs.music = next->music.Hear();
-    return PrepareTransition(model, inputs).run.spec();
-  };
+  const TransitionInputs inputs{.controls = score.controls(),
+                                .segment = next->segment,
+                                .noise_like = next->noise_like,
+                                .music = next->music};
+  const auto prepare = [&] { return PrepareTransition(model, inputs).run.spec(); };
   const TransitionSpec before = prepare();
   score.GiveBeats({14.1, 14.7, 15.3}, {}, {});
   ControlRequest controls;
