@@ -194,7 +194,7 @@ Slices<std::vector<Pose>> SampleTransition(const FlowModelParts& model, const Fl
                            !request.controls[kRootPath].IsRequested(kPathHeight);
     const double most = std::max(kMaxDeviation, usual.Deviation(danced.back()));
     BestTake<std::vector<Pose>> best;
-    while (best.WantsAnother() && spare->Spend(best.takes(), frames)) {
+    while (best.WantsAnother() && spare->SpendUnlessFirst(best.takes(), frames)) {
       FlowNoise own = noise;
       own.first_frame += from;
       own.candidate = CandidateOfTake(noise.candidate, best.takes());
@@ -248,7 +248,7 @@ Slices<Plan> ContinuousFlowSampler::Sample(const ValidSpec& valid) {
   SpareFrames spare(spec.spare_frames);
   double least = std::numeric_limits<double>::infinity();  // the error of the nearest result
   for (int round = 0; round < (in_rounds ? kRounds : 1); ++round) {
-    if (!spare.Spend(round, spec.frames)) break;
+    if (!spare.SpendUnlessFirst(round, spec.frames)) break;
     std::vector<Pose> poses = co_await SampleTransition(*parts_, *network_, request, noise, &spare);
     const double error = in_rounds ? CorrectEnergy(parts_->skeleton, spec.history.back(), poses,
                                                    wanted, more, energy)

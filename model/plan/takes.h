@@ -31,9 +31,9 @@ class SpareFrames {
   static SpareFrames Of(int frames) { return SpareFrames((kMaxTakes - 1) * frames); }
 
   int left() const { return left_; }
-  /// Spends what sampling number `number` of these frames costs, if that is left. The first
-  /// sampling, number 0, costs nothing.
-  [[nodiscard]] bool Spend(int number, int frames) {
+  /// Spends these frames for sampling number `number` of them, if they are left; the first, number
+  /// 0, costs nothing.
+  [[nodiscard]] bool SpendUnlessFirst(int number, int frames) {
     const int cost = number == 0 ? 0 : frames;
     if (cost > left_) return false;
     left_ -= cost;

@@ -8,7 +8,7 @@ namespace choreo::takes_test {
 
 // Samples takes with these excesses, as TransitionRun does. Returns the kept one.
 int Sample(const std::vector<double>& excesses, SpareFrames* spare, BestTake<int>* best) {
-  while (best->WantsAnother() && spare->Spend(best->takes(), 10))
+  while (best->WantsAnother() && spare->SpendUnlessFirst(best->takes(), 10))
     best->Add(best->takes(), excesses.at(static_cast<size_t>(best->takes())));
   return best->motion();
 }
@@ -42,8 +42,8 @@ TEST(SpareFrames, AreGoneWhenMoreThanTheyHaveBeenSampled) {
   EXPECT_EQ(spare.left(), 10 * (kMaxTakes - 1) - 15);
   spare.Charge(1000);
   EXPECT_EQ(spare.left(), 0);
-  EXPECT_FALSE(spare.Spend(1, 1));
-  EXPECT_TRUE(spare.Spend(0, 1));
+  EXPECT_FALSE(spare.SpendUnlessFirst(1, 1));
+  EXPECT_TRUE(spare.SpendUnlessFirst(0, 1));
 }
 
 }  // namespace choreo::takes_test

@@ -132,7 +132,7 @@ Slices<> TransitionRun::Dance(Sampler& sampler) {
   BestTake<ProcessedPlan> best;
   const uint32_t candidate = spec_->candidate;
   SpareFrames spare = SpareFrames::Of(spec_->frames);
-  while (best.WantsAnother() && spare.Spend(best.takes(), spec_->frames)) {
+  while (best.WantsAnother() && spare.SpendUnlessFirst(best.takes(), spec_->frames)) {
     spec_.SetTake(CandidateOfTake(candidate, kTransitionTake * best.takes()), spare.left());
     ProcessedPlan processed = co_await DanceOnce(sampler);
     spare.Charge(processed.plan.resampled);
