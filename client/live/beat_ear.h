@@ -32,6 +32,7 @@ class BeatEar {
 
   /// Replaces the hint, and searches for beats again.
   void SetHint(const LiveBeatHint& hint);
+  const LiveBeatHint& hint() const { return hint_; }
 
   /// Takes the next mono samples at 22 050 Hz. Returns beats ahead about every other second, and
   /// none while no beat is clear.

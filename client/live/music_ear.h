@@ -28,13 +28,12 @@ class MusicEar {
 
   /// Takes the next whole interleaved frames, all finite.
   Ahead Hear(std::span<const float> piece);
-  void SetHint(const LiveBeatHint& hint);
+  void SetHint(const LiveBeatHint& hint) { beats_.SetHint(hint); }
 
  private:
   Resampler resampler_;
   std::vector<float> mono_;  // of this piece
   BeatEar beats_;
-  bool hinted_;
   PassageEar passages_;
 };
 
