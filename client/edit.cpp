@@ -11,6 +11,12 @@
 namespace choreo::client {
 namespace {
 
+// If the song's energies are unknown: seconds of music before the first frame to which its energy
+// is relative, as far as kMaxMusicBytes allows. Fewer than in a stream, because each edit sends
+// them.
+constexpr double kMusicBefore_s = 35;
+constexpr double kMaxMusicBytes = 12 << 20;
+
 /// New frames, at the model's rate, starting at `first`.
 struct Part {
   int64_t first = 0;

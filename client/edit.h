@@ -18,11 +18,6 @@ namespace choreo::client {
 
 /// Seconds of music after a frame that its music features need, rounded up.
 inline constexpr double kMusicBeyond_s = 0.5;
-/// If the song's energies are unknown: seconds of music before the first frame to which its energy
-/// is relative, as far as kMaxMusicBytes allows. Fewer than in a stream, because each edit sends
-/// them.
-inline constexpr double kMusicBefore_s = 35;
-inline constexpr double kMaxMusicBytes = 12 << 20;
 
 /// A dance whose first frame is at the beginning of the music.
 struct FinishedDance {
