@@ -39,6 +39,16 @@ struct DanceManner {
     visit(SettingRow{"variation"}, each.variation...);
   }
 
+  /// The range of a number among these settings.
+  Range RangeOf(const std::optional<double>& setting) const {
+    Range range;
+    const auto look = [&](const SettingRow& row, const auto& one) {
+      if (static_cast<const void*>(&one) == &setting) range = row.range;
+    };
+    VisitSettings(look, *this);
+    return range;
+  }
+
   /// Checks the numbers that are stated. Throws Error(kInvalidArgument) whose field is `place`
   /// followed by the setting's name.
   void CheckNumbers(const std::string& place) const {

@@ -14,6 +14,7 @@
 #include "model/core/hit.h"
 #include "model/core/limits.h"
 #include "model/core/nearest.h"
+#include "model/core/range.h"
 #include "model/core/rounded.h"
 #include "model/motion/controls.h"
 #include "model/motion/pose_faults.h"
@@ -131,6 +132,10 @@ void AddVmc(CLI::App& command, std::string& address) {
 }
 
 void AddManner(CLI::App& command, DanceManner* manner) {
+  const auto in_range = [&](const std::optional<double>& setting) {
+    const Range range = manner->RangeOf(setting);
+    return NumberFrom(range.least, range.most);
+  };
   command.add_option(
       "--temperature", manner->temperature,
       "Variety, 0 (calm) to " + Rounded(kMaxTemperature) + "; default: the model's. " + kOfChance);
@@ -139,13 +144,13 @@ void AddManner(CLI::App& command, DanceManner* manner) {
           "--music-dynamics", manner->music_dynamics,
           "How much the music's energy shapes that of the dance, 0 (not at all) to 1. Default: " +
               Rounded(kDefaultDynamics) + ".")
-      ->check(NumberFrom(0, 1));
+      ->check(in_range(manner->music_dynamics));
   command
       .add_option("--variation", manner->variation,
                   "How much the dance differs where a passage of the music returns, 0 (hardly) to "
                   "1 (altogether). Default: " +
                       Rounded(kDefaultVariation) + ".")
-      ->check(NumberFrom(0, 1));
+      ->check(in_range(manner->variation));
   command
       .add_option("--style", manner->style,
                   "A style that `choreo info` lists, such as happy or tired. The list says which "
