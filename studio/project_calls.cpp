@@ -11,9 +11,9 @@
 #include <vector>
 
 #include "client/authoring/fields/json_fields.h"
-#include "client/authoring/fields/notes.h"
 #include "client/authoring/keys/key_faults.h"
 #include "client/authoring/keys/key_file.h"
+#include "client/authoring/notes/notes.h"
 #include "client/authoring/project/project_file.h"
 #include "model/core/rounded.h"
 #include "model/formats/bvh/bvh.h"

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <optional>
 
-#include "client/authoring/fields/notes.h"
 #include "client/authoring/keys/proposed_keys.h"
+#include "client/authoring/notes/notes.h"
 #include "model/core/rounded.h"
 
 namespace choreo::studio {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "client/authoring/fields/notes.h"
+#include "client/authoring/notes/notes.h"
 #include "client/cli/commands/commands.h"
 #include "client/cli/options/interruption.h"
 #include "client/cli/options/misspelling.h"

@@ -361,7 +361,7 @@ TEST(Architecture, RoomsOfAModuleIncludeLowerOnesAlone) {
       {"model/audio/", {"signal", "decode", "beats", "music"}},
       {"model/dance/", {"timeline", "controls", "input", "transition", "delivery", ""}},
       {"model/formats/", {"containers", "reading", "arrays", "bvh", "gltf", ""}},
-      {"client/authoring/", {"fields", "music", "keys", "controls", "project", ""}},
+      {"client/authoring/", {"notes", "fields", "music", "keys", "controls", "project", ""}},
       {"server/", {"process", "messages", "connections", "telemetry", "settings", "calls", ""}},
       {"client/cli/", {"report", "options", "dance", "edit", "commands", ""}},
   };

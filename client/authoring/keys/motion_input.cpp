@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "client/authoring/fields/notes.h"
+#include "client/authoring/notes/notes.h"
 
 namespace choreo::authoring {
 namespace {

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <map>
 
-#include "client/authoring/fields/notes.h"
 #include "client/authoring/music/beat_file.h"
+#include "client/authoring/notes/notes.h"
 #include "model/audio/beats/same_tempo.h"
 #include "model/audio/signal/format.h"
 #include "model/core/error.h"

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "client/authoring/fields/notes.h"
+#include "client/authoring/notes/notes.h"
 #include "model/core/error.h"
 #include "model/core/printable.h"
 

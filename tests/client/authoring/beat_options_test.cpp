@@ -9,8 +9,8 @@
 #include <numbers>
 #include <string>
 
-#include "client/authoring/fields/notes.h"
 #include "client/authoring/music/music.h"
+#include "client/authoring/notes/notes.h"
 #include "client/authoring/project/project_file.h"
 #include "model/audio/beats/onset.h"
 #include "model/audio/signal/format.h"

@@ -1,4 +1,4 @@
-#include "client/authoring/fields/notes.h"
+#include "client/authoring/notes/notes.h"
 
 #include <utility>
 
