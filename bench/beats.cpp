@@ -28,6 +28,7 @@
 #include "model/audio/music/made_song.h"
 #include "model/core/error.h"
 #include "model/core/grid.h"
+#include "model/core/limits.h"
 #include "model/dance/delivery/beat_schedule.h"
 #include "model/dance/input/dance_music.h"
 #include "model/metrics/song_beats.h"
@@ -58,7 +59,7 @@ std::vector<double> HearLive(const std::vector<float>& mono) {
   AudioFeed feed(kModelSampleRate, 1, 0);
   feed.Push(mono, 0, [] {});
   const ModelInfo model;
-  DanceMusic music(model, {}, &feed);
+  DanceMusic music(model, {}, kDefaultDynamics, &feed);
   BeatSchedule schedule(30, &feed, std::nullopt);
   for (int64_t from = 0; from + kTypicalFrames <= feed.ready(); from += kTypicalFrames) {
     schedule.StartTransition(music.PlanFor({from, from + kTypicalFrames}, from).Hear().beats, from);

@@ -13,7 +13,7 @@
 #include "model/dance/delivery/dance_sink.h"
 #include "model/dance/delivery/delivery.h"
 #include "model/dance/input/audio_feed.h"
-#include "model/dance/input/dance_start.h"
+#include "model/dance/requests/dance_start.h"
 #include "model/dance/transition/dance_score.h"
 
 namespace choreo {

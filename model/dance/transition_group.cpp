@@ -123,7 +123,7 @@ void TransitionGroup::Impl::Begin() {
     segment_.key = Key{request_.target_id, end - 1, target->pose, target->mask, request_.hit};
   const auto changes = controls_.Set(request_.controls, from, "controls");
   // All candidates have the same request, so it is checked once and its warnings are sent once.
-  DanceMusic music(model_, request_, audio_.get(), /*detects=*/false);
+  DanceMusic music(model_, request_, request_.Dynamics(), audio_.get(), /*detects=*/false);
   auto [run, beats, warnings] = PrepareTransition(
       model_, {.manner = request_,
                .seed = request_.seed,

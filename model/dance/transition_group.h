@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "model/dance/delivery/quality_meter.h"
-#include "model/dance/input/dance_start.h"
+#include "model/dance/requests/dance_start.h"
 #include "model/dance/timeline/warning.h"
 #include "model/engine/sample_queue.h"
 

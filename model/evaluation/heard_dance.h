@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "model/dance/input/dance_start.h"
+#include "model/dance/requests/dance_start.h"
 #include "model/dance/timeline/timeline.h"
 #include "model/engine/sample_queue.h"
 

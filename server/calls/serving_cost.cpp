@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "model/core/grid.h"
+#include "model/core/limits.h"
 #include "model/core/random.h"
 #include "model/core/threads.h"
 #include "model/dance/input/audio_feed.h"
@@ -25,7 +26,7 @@ double MeasureMusic() {
   for (float& sample : samples) sample = static_cast<float>(0.1 * random.Normal());
   AudioFeed audio(kRate, 1, 0);
   const ModelInfo model;
-  DanceMusic music(model, {}, &audio);
+  DanceMusic music(model, {}, kDefaultDynamics, &audio);
   const double begin = ThreadCpuSeconds();
   audio.Push(samples, 0, [] {});
   audio.Finish();

@@ -8,7 +8,7 @@
 #include "model/dance/delivery/body_watch.h"
 #include "model/dance/delivery/output_rate.h"
 #include "model/dance/delivery/quality_meter.h"
-#include "model/dance/input/dance_start.h"
+#include "model/dance/requests/dance_start.h"
 #include "model/dance/timeline/timeline.h"
 
 namespace choreo {

@@ -11,7 +11,7 @@
 #include "model/dance/delivery/dance_sink.h"
 #include "model/dance/delivery/mailbox.h"
 #include "model/dance/input/audio_feed.h"
-#include "model/dance/input/dance_start.h"
+#include "model/dance/requests/dance_start.h"
 #include "model/dance/timeline/timeline.h"
 
 namespace choreo {

@@ -84,17 +84,17 @@ class BeatMemory {
   HeardBeats heard_;
 };
 
-DanceMusic::DanceMusic(const ModelInfo& model, const DanceStart& start, const AudioFeed* audio,
-                       bool detects)
-    : has_beats_(!start.music_beats.empty()),
-      energies_(start.music_energies),
-      count_(start.music_beats.size()) {
+DanceMusic::DanceMusic(const ModelInfo& model, const KnownMusic& known, double dynamics,
+                       const AudioFeed* audio, bool detects)
+    : has_beats_(!known.music_beats.empty()),
+      energies_(known.music_energies),
+      count_(known.music_beats.size()) {
   planned_.model_ = &model;
   planned_.audio_ = audio;
-  planned_.dynamics_ = start.Dynamics();
-  planned_.id_ = start.music_id;
+  planned_.dynamics_ = dynamics;
+  planned_.id_ = known.music_id;
   if (has_beats_) {
-    ReplaceBeats(start.music_beats.front(), start.music_beats, start.music_downbeats,
+    ReplaceBeats(known.music_beats.front(), known.music_beats, known.music_downbeats,
                  {.source = Beat::Source::kGiven});
   } else if (audio != nullptr && detects) {
     planned_.heard_ = std::make_shared<BeatMemory>();

@@ -13,9 +13,10 @@
 #include "model/audio/music/music_dynamics.h"
 #include "model/audio/signal/format.h"
 #include "model/dance/input/audio_feed.h"
-#include "model/dance/input/dance_start.h"
 #include "model/dance/timeline/timeline.h"
 #include "model/messages/dance_event.h"
+#include "model/messages/dance_manner.h"
+#include "model/plan/transition_spec.h"
 
 namespace choreo {
 
@@ -74,10 +75,11 @@ class PlannedMusic {
 /// chunks or timing. Not thread-safe.
 class DanceMusic {
  public:
-  /// `audio`: the dance's audio; null without music. `detects`: whether to detect beats if none are
-  /// given. Model and audio must outlive this object and its PlannedMusic.
-  DanceMusic(const ModelInfo& model, const DanceStart& start, const AudioFeed* audio,
-             bool detects = true);
+  /// `dynamics`: DanceManner::Dynamics. `audio`: the dance's audio; null without music. `detects`:
+  /// whether to detect beats if none are given. Model and audio must outlive this object and its
+  /// PlannedMusic.
+  DanceMusic(const ModelInfo& model, const KnownMusic& known, double dynamics,
+             const AudioFeed* audio, bool detects = true);
 
   /// Sets what is known about the whole music, which ends the detection of beats. Values in the
   /// config have precedence.

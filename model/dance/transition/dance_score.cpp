@@ -25,7 +25,7 @@ DanceScore::DanceScore(const ModelInfo& model, const ValidDance& config, const A
     : timeline_({model.fps, config->FirstFrame(), config->end_frame, audio != nullptr,
                  config->generate_until, model.max_transition_frames, model.sight_frames}),
       controls_(model),
-      music_(model, *config, audio),
+      music_(model, *config, config->Dynamics(), audio),
       recurrence_(model.fps, config->Variation() < 1 ? config->music_passages : kNoPassages),
       model_(model),
       audio_(audio),

@@ -8,6 +8,7 @@
 #include <limits>
 #include <random>
 
+#include "model/core/limits.h"
 #include "model/dance/delivery/beat_schedule.h"
 #include "tests/dance/dances.h"
 #include "tests/support/expect_error.h"
@@ -102,7 +103,7 @@ TEST(MusicBeats, StopAPeriodAfterTheMusic) {
   for (double beat = 0.5; beat < 38; beat += 0.5) by_client.push_back(beat);
   enum class Who { kServer, kClient, kGiven };
   for (const Who who : {Who::kServer, Who::kClient, Who::kGiven}) {
-    DanceMusic music(model, {}, &feed);
+    DanceMusic music(model, {}, kDefaultDynamics, &feed);
     BeatSchedule schedule(30, &feed, std::nullopt);
     if (who == Who::kClient) music.GiveBeats(by_client, 0, "beats", {}, 0.7);
     if (who == Who::kGiven) music.GiveBeats(by_client, 0, "beats");
@@ -127,7 +128,7 @@ TEST(MusicBeats, StopAPeriodAfterTheMusic) {
 }
 
 TEST(MusicBeats, OfAWholeSongAreAsSureAsTheyWereFound) {
-  DanceMusic music(model, {}, nullptr);
+  DanceMusic music(model, {}, kDefaultDynamics, nullptr);
   BeatSchedule schedule(30, nullptr, std::nullopt);
   music.SetWhole({.beats = {0.5, 1}, .downbeats = {1}, .confidence = {0.8, 0.9}});
   Begin(&music, &schedule, 0, 60);
@@ -243,7 +244,7 @@ TEST(MusicBeats, AreReportedOnce) {
     for (const bool cut : {false, true}) {
       SCOPED_TRACE(std::to_string(bpm) + (cut ? ", cut" : ", whole"));
       std::mt19937 random(static_cast<uint32_t>(bpm));
-      DanceMusic music(model, {}, &feed);
+      DanceMusic music(model, {}, kDefaultDynamics, &feed);
       BeatSchedule schedule(30, &feed, std::nullopt);
       for (int64_t from = 0, to = 0; from < 900; from = to) {
         const int64_t frames = cut ? 1 + static_cast<int64_t>(random() % 100) : 60;
@@ -267,7 +268,7 @@ TEST(MusicBeats, RepeatedGridIsReportedOnce) {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> jitter(-0.005, 0.005);
   for (const int64_t lead : {0, 6, 20}) {
-    DanceMusic beats(model, {}, nullptr);
+    DanceMusic beats(model, {}, kDefaultDynamics, nullptr);
     BeatSchedule schedule(30, nullptr, std::nullopt);
     std::vector<Beat> told;
     for (int64_t from = 0; from < 600; from += 9) {
@@ -296,7 +297,7 @@ TEST(MusicBeats, AreDetectedAroundGivenOnes) {
   AudioFeed feed(22050, 1, 0);
   feed.Push(Song(22050, 20), 0, [] {});
   feed.Finish();
-  DanceMusic music(model, {}, &feed);
+  DanceMusic music(model, {}, kDefaultDynamics, &feed);
   BeatSchedule schedule(30, &feed, std::nullopt);
   EXPECT_EQ(music.GiveBeats(std::vector<double>{9, 11.7, 12.2, 12.7}, 284, "beats"), 1);
   EXPECT_EQ(music.GiveBeats(std::vector<double>{12.4, 12.9}, 284, "beats"), 0);
@@ -328,7 +329,7 @@ TEST(MusicBeats, LaterMusicChangesNothing) {
     AudioFeed feed(22050, 1, 0);
     feed.Push(song, 0, [] {});
     feed.Finish();
-    DanceMusic music(model, {}, &feed);
+    DanceMusic music(model, {}, kDefaultDynamics, &feed);
     return BeatsAround(SecondsOf(music.PlanFor({300, 360}, 300).Hear().beats), 30, 300, 60);
   };
   const std::vector<double> heard = around();

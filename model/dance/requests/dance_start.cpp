@@ -1,4 +1,4 @@
-#include "model/dance/input/dance_start.h"
+#include "model/dance/requests/dance_start.h"
 
 #include <algorithm>
 #include <cmath>
