@@ -12,7 +12,7 @@
 #include <optional>
 #include <utility>
 
-#include "model/dance/delivery/pacer.h"
+#include "model/dance/delivery/strand.h"
 #include "server/calls/call_registry.h"
 
 namespace choreo {
@@ -209,7 +209,7 @@ class Outbox {
   // set_paused may make a dance deliver frames and re-enter here. The outermost call then
   // continues.
   void UpdatePressure() {
-    pacer_.Run(
+    strand_.Run(
         mutex_, std::numeric_limits<int>::max(),
         [this]() -> std::optional<bool> {
           const bool want = paused_ ? bytes_ > max_bytes_ / 2 : bytes_ > max_bytes_;
@@ -237,7 +237,7 @@ class Outbox {
   bool read_wanted_ = false;
   int holds_ = 0;
   bool paused_ = false;
-  Pacer pacer_;  // serialises calls to set_paused_
+  Strand strand_;  // of calls to set_paused_
   grpc::Status status_;
 };
 

@@ -7,6 +7,7 @@
 #include <random>
 #include <thread>
 
+#include "model/dance/delivery/hand_over.h"
 #include "tests/dance/dances.h"
 
 namespace choreo::dance_stream_test {

@@ -10,7 +10,7 @@
 #include <mutex>
 #include <thread>
 
-#include "model/dance/delivery/pacer.h"
+#include "model/dance/delivery/hand_over.h"
 #include "tests/dance/dances.h"
 #include "tests/engine/sample_job.h"
 #include "tests/support/expect_error.h"

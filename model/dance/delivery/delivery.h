@@ -8,8 +8,9 @@
 #include <utility>
 
 #include "model/core/error.h"
+#include "model/dance/delivery/hand_over.h"
 #include "model/dance/delivery/mailbox.h"
-#include "model/dance/delivery/pacer.h"
+#include "model/dance/delivery/strand.h"
 #include "model/dance/transition/transition.h"
 #include "model/engine/sample_queue.h"
 
@@ -39,7 +40,7 @@ class Delivery : public std::enable_shared_from_this<Delivery<Sink>> {
 
   /// Hands out a few results. Returns true if there may be more.
   bool HandOut() {
-    return pacer_.Run(
+    return strand_.Run(
         mutex_, kFramesASlice, [this] { return Take(); },
         [this](std::function<void()> report) {
           if (report) std::exchange(report, {})();  // and frees its captures
@@ -183,7 +184,7 @@ class Delivery : public std::enable_shared_from_this<Delivery<Sink>> {
   const Submit submit_;
   std::atomic<int> sampling_ = 0;  // jobs queued or being sampled
   std::atomic<bool> paused_ = false;
-  Pacer pacer_;  // paces handing out
+  Strand strand_;  // of handing out
   HandOver<Delivery> hand_over_;
 };
 

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "model/core/error.h"
-#include "model/dance/delivery/pacer.h"
+#include "model/dance/delivery/strand.h"
 
 namespace choreo {
 
@@ -37,7 +37,7 @@ class Mailbox {
   /// Makes the waiting calls. If one throws, the exception propagates and the others wait for the
   /// next Deliver.
   void Deliver() {
-    pacer_.Run(
+    strand_.Run(
         mutex_, std::numeric_limits<int>::max(), [this] { return TakeNext(); },
         [this](Call call) {
           if (call) call(*listener_);
@@ -82,7 +82,7 @@ class Mailbox {
   const Error failure_{ErrorCode::kInternal, "",
                        "the dance cannot continue; the server may be out of memory"};
   mutable std::mutex mutex_;
-  Pacer pacer_;
+  Strand strand_;
   std::deque<Call> calls_;
   bool over_ = false;
   bool gave_up_ = false;

@@ -1,4 +1,4 @@
-#include "model/dance/delivery/pacer.h"
+#include "model/dance/delivery/strand.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -15,14 +15,15 @@
 #include <utility>
 #include <vector>
 
+#include "model/dance/delivery/hand_over.h"
 #include "tests/support/fake_sampler.h"
 
-namespace choreo::pacer_test {
+namespace choreo::strand_test {
 
 using testing::ElementsAre;
 using testing::IsEmpty;
 
-/// Numbers that a Pacer hands out.
+/// Numbers that a Strand hands out.
 class Numbers {
  public:
   /// Called with each number before it is in `taken`, and with none where there is no next one.
@@ -35,7 +36,7 @@ class Numbers {
     waiting_.push_back(number);
   }
   bool HandOut(int most = 100) {
-    return pacer_.Run(
+    return strand_.Run(
         mutex_, most, [this] { return Next(); },
         [this](std::optional<int> number) {
           in_take(number);
@@ -54,11 +55,11 @@ class Numbers {
   }
 
   std::mutex mutex_;
-  Pacer pacer_;
+  Strand strand_;
   std::deque<int> waiting_;
 };
 
-class PacerTest : public testing::Test {
+class StrandTest : public testing::Test {
  protected:
   /// A thread that hands out, and waits for `gate` when it takes `number` for the first time.
   std::thread HandOutUpTo(std::optional<int> number) {
@@ -76,7 +77,7 @@ class PacerTest : public testing::Test {
   std::promise<void> entered, gate;
 };
 
-TEST_F(PacerTest, OneThreadTakesWhatOthersAsk) {
+TEST_F(StrandTest, OneThreadTakesWhatOthersAsk) {
   numbers.Add(1);
   numbers.Add(2);
   std::thread first = HandOutUpTo(1);
@@ -90,7 +91,7 @@ TEST_F(PacerTest, OneThreadTakesWhatOthersAsk) {
   EXPECT_THAT(numbers.takers, ElementsAre(id, id, id));
 }
 
-TEST_F(PacerTest, AskingWhenNothingSeemsLeftIsNotLost) {
+TEST_F(StrandTest, AskingWhenNothingSeemsLeftIsNotLost) {
   std::thread first = HandOutUpTo(std::nullopt);
   numbers.Add(1);
   EXPECT_FALSE(numbers.HandOut());
@@ -99,7 +100,7 @@ TEST_F(PacerTest, AskingWhenNothingSeemsLeftIsNotLost) {
   EXPECT_THAT(numbers.taken, ElementsAre(1));
 }
 
-TEST_F(PacerTest, TakesAtMostSoMany) {
+TEST_F(StrandTest, TakesAtMostSoMany) {
   for (const int number : {1, 2, 3}) numbers.Add(number);
   EXPECT_TRUE(numbers.HandOut(2));
   EXPECT_THAT(numbers.taken, ElementsAre(1, 2));
@@ -107,7 +108,7 @@ TEST_F(PacerTest, TakesAtMostSoMany) {
   EXPECT_THAT(numbers.taken, ElementsAre(1, 2, 3));
 }
 
-TEST_F(PacerTest, ATakeMayAskAgain) {
+TEST_F(StrandTest, ATakeMayAskAgain) {
   numbers.Add(1);
   numbers.Add(2);
   numbers.in_take = [this](std::optional<int>) { EXPECT_FALSE(numbers.HandOut()); };
@@ -115,7 +116,7 @@ TEST_F(PacerTest, ATakeMayAskAgain) {
   EXPECT_THAT(numbers.taken, ElementsAre(1, 2));
 }
 
-TEST_F(PacerTest, WhatATakeThrowsPassesAndTheRestWaits) {
+TEST_F(StrandTest, WhatATakeThrowsPassesAndTheRestWaits) {
   for (const int number : {1, 2, 3}) numbers.Add(number);
   numbers.in_take = [](std::optional<int> number) {
     if (number == 2) throw std::runtime_error("two");
@@ -222,4 +223,4 @@ TEST_F(HandOverTest, AFailedJobTellsItsOwner) {
   EXPECT_EQ(jobs.size(), 2U);
 }
 
-}  // namespace choreo::pacer_test
+}  // namespace choreo::strand_test
