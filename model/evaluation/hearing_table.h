@@ -24,7 +24,7 @@ struct HearingOptions {
 };
 
 /// The table "hearing": how much a dance responds to its music, at usual and at other settings.
-/// Dances are streamed as served, to synthetic songs (audio/made_song.h) and to `songs`.
+/// Dances are streamed as served, to synthetic songs (audio/music/made_song.h) and to `songs`.
 ///
 ///   drums ÷ pad, silence ÷ drums  mean joint speeds in parts of one song, from its fifth second on
 ///   loudness and speed            their correlation over windows of 4 s, mean over seeds

@@ -94,9 +94,10 @@ struct KnownMusic {
   /// Passages that repeat earlier ones (CheckPassages); the dance repeats with them. Empty: a
   /// server finds a file's.
   std::vector<Passage> music_passages = {};
-  /// The energy of the whole song, every half second (SongEnergies in audio/music_dynamics.h), at
-  /// most kMaxEnergy either way. A transition then has its own music's energy. Empty: a server
-  /// measures a file's; for samples it takes the energy before each transition.
+  /// The energy of the whole song, every half second (SongEnergies in
+  /// audio/music/music_dynamics.h), at most kMaxEnergy either way. A transition then has its own
+  /// music's energy. Empty: a server measures a file's; for samples it takes the energy before each
+  /// transition.
   std::vector<float> music_energies = {};
 
   static KnownMusic Of(const auto& request) {

@@ -9,8 +9,8 @@ namespace choreo {
 
 /// The beats of a prepared clip's music, in (fractional) frames of its motion, ascending. Clips
 /// contain MFCC rows, not samples. The inverse cosine transform of the rows is a mel spectrum,
-/// whose rises are the onsets that audio/beats.h tracks. `rows`: [coefficients, frames], 30 per
-/// second. Empty for silence.
+/// whose rises are the onsets that audio/beats/beats.h tracks. `rows`: [coefficients, frames], 30
+/// per second. Empty for silence.
 std::vector<double> SongBeats(const Eigen::MatrixXf& rows, double fps);
 
 /// The beat alignment score of AIST++ (Li et al. 2021, Section 5), as in its published evaluation:

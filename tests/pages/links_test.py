@@ -2,6 +2,7 @@
 """Links and pictures of pages lead somewhere; pages and pictures are no longer than somebody in a hurry reads."""
 
 import re
+import subprocess
 import unittest
 
 from pages import ROOT, anchors, links, pages
@@ -37,6 +38,15 @@ class PagesTest(unittest.TestCase):
             for name in re.findall(r"`((?:bench|client|docker|docs|examples|model|proto|scripts|server|network|studio|tests)/[\w./]+)`", (ROOT / page).read_text()):
                 with self.subTest(page=page, name=name):
                     self.assertTrue(any((ROOT / (name + end)).exists() for end in ("", ".h", ".cpp", ".sh", ".py")), "there is no such file")
+
+    def test_files_in_comments_exist(self):
+        """From the root, from model/, or in the file's own folder; others' headers are not ours."""
+        others = {"asm/prctl.h", "torch/torch.h"}
+        for name in subprocess.run(["git", "ls-files", "*.h", "*.cpp", "*.proto"], cwd=ROOT, capture_output=True, text=True, check=True).stdout.split():
+            comments = "\n".join(re.findall(r"//.*", (ROOT / name).read_text()))
+            for path in set(re.findall(r"(?<![\w/.-])((?:[a-z_]+/)+[a-z_]+\.(?:h|cpp|proto|py|sh|md))\b", comments)) - others:
+                with self.subTest(file=name, path=path):
+                    self.assertTrue(any((folder / path).exists() for folder in (ROOT, ROOT / "model", (ROOT / name).parent)), "there is no such file")
 
     def test_every_page_is_led_to(self):
         led_to = {((ROOT / page).parent / link.partition("#")[0]).resolve() for page in pages() for link in links((ROOT / page).read_text())}

@@ -25,8 +25,8 @@ struct CharacterOptions {
   /// own bones.
   void Check(const std::filesystem::path& out, bool of_motion = false) const;
 
-  /// Writes the character with the dance (formats/character_file.h). If its bones cannot be found
-  /// by name, writes a suggested map, OUT.map.json and OUT.map.png, and throws
+  /// Writes the character with the dance (formats/gltf/character_file.h). If its bones cannot be
+  /// found by name, writes a suggested map, OUT.map.json and OUT.map.png, and throws
   /// Error(kInvalidArgument) naming both files.
   void Write(const std::filesystem::path& out, const Skeleton& skeleton, const Motion& motion,
              RootMotion root = RootMotion::kPelvis) const;

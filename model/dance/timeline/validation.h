@@ -13,7 +13,7 @@
 #include "model/motion/pose_limits.h"
 #include "model/plan/transition_spec.h"
 
-/// Checks of external input (for audio see audio/format.h). Each function throws
+/// Checks of external input (for audio see audio/signal/format.h). Each function throws
 /// Error(kInvalidArgument) whose field is the sender's path and whose message states the value and
 /// the limit, as in "keyframes[3].rotations[16]: 7.9 rad exceeds 2π".
 namespace choreo {
