@@ -59,9 +59,9 @@ struct SampleQueue::Impl {
    public:
     size_t size() const { return dances_.size() + bulk_.size(); }
     void Add(std::unique_ptr<Entry> entry) {
-      auto& like = entry->is_bulk ? bulk_ : dances_;
+      auto& kind = entry->is_bulk ? bulk_ : dances_;
       const Due due = entry->due;
-      like.emplace(due, std::move(entry));
+      kind.emplace(due, std::move(entry));
     }
     /// The first one, and when it is due, if bulk is due at `bulk_due`; null without any.
     std::pair<Due, Entry*> First(double bulk_due) const {
@@ -73,16 +73,16 @@ struct SampleQueue::Impl {
       return first;
     }
     std::unique_ptr<Entry> Take(const Entry& entry) {
-      auto& like = entry.is_bulk ? bulk_ : dances_;
-      return std::move(like.extract(entry.due).mapped());
+      auto& kind = entry.is_bulk ? bulk_ : dances_;
+      return std::move(kind.extract(entry.due).mapped());
     }
     /// Removes and returns all jobs that `chosen` selects.
     Entries TakeAll(const auto& chosen) {
       Entries all;
-      for (auto* like : {&dances_, &bulk_}) {
-        for (auto at = like->begin(); at != like->end();) {
+      for (auto* kind : {&dances_, &bulk_}) {
+        for (auto at = kind->begin(); at != kind->end();) {
           const auto next = std::next(at);
-          if (chosen(*at->second)) all.push_back(std::move(like->extract(at).mapped()));
+          if (chosen(*at->second)) all.push_back(std::move(kind->extract(at).mapped()));
           at = next;
         }
       }

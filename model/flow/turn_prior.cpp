@@ -33,7 +33,7 @@ double TwistOf(const Skeleton& skeleton, const Pose& pose) {
 }
 
 // The logarithm of mean joint speed over the usual one.
-double LivelinessOf(const Skeleton& skeleton, const std::vector<Pose>& history) {
+double EnergyOf(const Skeleton& skeleton, const std::vector<Pose>& history) {
   double sum = 0;
   for (size_t i = 1; i < history.size(); ++i) {
     sum += (JointPositions(skeleton, history[i]) - JointPositions(skeleton, history[i - 1]))
@@ -76,11 +76,11 @@ std::optional<TurnPrior::Inputs> TurnPrior::Describe(const Skeleton& skeleton,
                                   : Eigen::Vector3d::Zero();
   const double metres = std::min(kMaxDistance, std::hypot(way.x(), way.z()));
   const double twist = request.mask.joints.empty() ? TwistOf(skeleton, key) : 0;
-  const double lively = LivelinessOf(skeleton, history);
+  const double energy = EnergyOf(skeleton, history);
   const auto describe = [&](const Eigen::Vector3d& turn) {
     const double far = turn.norm() / std::numbers::pi, about = turn.dot(up) / std::numbers::pi;
     Inputs inputs;
-    inputs << far, far * longer, far * metres, far * lively, about * ahead, about * ahead * longer,
+    inputs << far, far * longer, far * metres, far * energy, about * ahead, about * ahead * longer,
         about * goes, about * std::clamp(way.x(), -kMaxDistance, kMaxDistance), about * twist;
     return inputs;
   };
