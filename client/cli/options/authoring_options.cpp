@@ -52,7 +52,8 @@ void AddBeatOptions(CLI::App& command, authoring::BeatOptions* options) {
                          "for edits the beats of the dance's report.");
   command
       .add_option("--tempo", options->hint.tempo_bpm,
-                  "Rough tempo, beats a minute. Beats are sought within 6 % of it.")
+                  "Rough tempo, " + Rounded(kSlowestHint) + " to " + Rounded(kFastestHint) +
+                      " beats a minute. Beats are sought within 6 % of it.")
       ->check(NumberFrom(kSlowestHint, kFastestHint))
       ->excludes(beats);
   CLI::Option* half =
