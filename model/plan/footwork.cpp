@@ -214,14 +214,26 @@ class PlanStander {
     }
   }
 
+  // The share of a raise, metres, at some frames from it. A smooth step of h metres in t seconds
+  // accelerates by at most 6 h / t².
+  double Share(int frames, double raise) const {
+    const double seconds =
+        std::max(kSettleSeconds, std::sqrt(6 * raise / context_.options.acceleration));
+    return 1 - SmoothStep(std::min(1.0, std::abs(frames) / (seconds * context_.fps)));
+  }
+
   // A smooth height by which to raise frames, at least as much as each has `sunk`, except near the
-  // ends, which keep their height.
+  // ends, which keep their height. It lifts no frame higher than the one that needs it.
   std::vector<double> Raises(const std::vector<double>& sunk) const {
     std::vector<double> raises(sunk.size());
     for (int frame = 0; frame < frames_; ++frame) {
       double most = 0;
-      for (int at = 0; at < frames_; ++at)
-        most = std::max(most, (1 - Settled(std::abs(at - frame))) * sunk[static_cast<size_t>(at)]);
+      for (size_t at = 0; at < sunk.size(); ++at) {
+        const double needed = plan_[at].root_position.y() + sunk[at] -
+                              plan_[static_cast<size_t>(frame)].root_position.y();
+        const int away = static_cast<int>(at) - frame;
+        most = std::max(most, std::min(needed, Share(away, sunk[at]) * sunk[at]));
+      }
       const int from_end = context_.keyed ? frames_ - 1 - frame : frames_;
       raises[static_cast<size_t>(frame)] = Settled(std::min(frame + 1, from_end)) * most;
     }

@@ -195,6 +195,27 @@ TEST(StandOnFeet, ASittingBodyRisesToSwingALeg) {
   EXPECT_LT(FindFastestStep(Body(), history.back(), plan, kFps).m_per_s, kFastestJoint);
 }
 
+// Once she is high enough, she does not sink again, as the plan catches up.
+TEST(StandOnFeet, ARisingBodyIsLiftedNoHigherThanItMust) {
+  constexpr int kRise = 45, kSwing = 20;  // frames
+  const std::vector<Pose> history(10, Sitting(0, 0));
+  std::vector<Pose> plan;
+  for (int i = 1; i <= kRise; ++i) {
+    plan.push_back(Sitting(-M_PI * std::min(1.0, 1.0 * i / kSwing), 0));
+    plan.back().root_position.y() += 0.8 * i / kRise;
+  }
+  FootworkContext context = Context();
+  context.history = history;
+  context.keyed = true;
+  StandOnFeet(context, &plan);
+  double highest = 0, falls = 0;
+  for (const Pose& pose : plan) {
+    highest = std::max(highest, pose.root_position.y());
+    falls = std::max(falls, highest - pose.root_position.y());
+  }
+  EXPECT_LT(falls, 0.05);
+}
+
 // Both feet came down to the floor, as if they had to carry the body.
 TEST(StandOnFeet, ASittingBodyMayRaiseItsFeet) {
   const std::vector<Pose> history(10, Sitting(0.5, 0.5));
