@@ -11,7 +11,6 @@ namespace choreo {
 namespace {
 
 constexpr int kMostRounds = 12;
-constexpr double kConverged = 0.001;  // metres that a round moves the pelvis at most
 constexpr double kPushSeconds =
     0.27;  // s before and after a flight in which legs may push as hard as gravity
 constexpr double kGive = 0.2;  // metres that a leap across a plan's end may leave it
@@ -106,7 +105,7 @@ class PelvisSolver {
       }
       const Eigen::Matrix3Xd before = offset_;
       offset_.leftCols(moved_) = problem.Solve().reshaped(3, moved_);
-      if ((offset_ - before).colwise().norm().maxCoeff() < kConverged) break;
+      if ((offset_ - before).colwise().norm().maxCoeff() < rules_.options.reach / 10) break;
     }
     return offset_;
   }
