@@ -69,7 +69,7 @@ pose air_guitar standing "Leaning back over the strings, left arm along the neck
   left_hip=0,15,14 right_hip=0,-10,-14 spine1=-8,0,-4 spine2=-8,0,-4 head=10,-10,0 at pelvis=0,0.8,0.05 left_foot=0.3,0,0.12 right_foot=-0.28,0,-0.08 left_hand=0.5,1.35,0.26 right_hand=-0.1,0.98,0.3
 
 pose crouch standing "Low on both feet, hands between the knees." stand \
-  pelvis=14,0,0 spine2=12,0,0 neck=-18,0,0 left_hip=-85,26,20 right_hip=-85,-26,-20 left_knee=125 right_knee=125 left_ankle=-50,0,0 right_ankle=-50,0,0 \
+  pelvis=14,0,0 spine2=12,0,0 neck=-18,0,0 left_hip=-85,26,20 right_hip=-85,-26,-20 left_knee=121 right_knee=125 left_ankle=-27,0,0 right_ankle=-33,0,0 \
   at left_hand=0.08,0.35,0.34 right_hand=-0.08,0.35,0.34
 
 # Travelling: in the middle of a step.
