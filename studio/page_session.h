@@ -28,8 +28,8 @@ class PageSession {
   PageSession(const PageSession&) = delete;
   PageSession& operator=(const PageSession&) = delete;
 
-  /// Only forwards the request, but ending a dance waits until its reader has stopped. Call from
-  /// one thread.
+  /// Only forwards the request, but waits for the readers of dances that end or have ended. Call
+  /// from one thread.
   void Receive(Request request);
 
  private:

@@ -11,7 +11,7 @@ namespace choreo {
 /// Reads how often a checkpoint's styles are recognised, from NAME.figures.json beside
 /// NAME.safetensors:
 ///
-///     {"weights": "26bf...", "styles": {"recognised": 7.9, "chance": 6.25, "low": 7.2}}
+///     {"weights": "26bf...", "styles": {"recognised": 8.4, "chance": 6.25, "low": 7.6}}
 ///
 /// `weights` is the content hash of the measured checkpoint. Whatever is in the checkpoint itself
 /// changes this hash, so figures cannot be there. None without the file, or if `hash` is another:

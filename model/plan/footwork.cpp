@@ -222,8 +222,8 @@ class PlanStander {
     return 1 - SmoothStep(std::min(1.0, std::abs(frames) / (seconds * context_.fps)));
   }
 
-  // A smooth height by which to raise frames, at least as much as each has `sunk`, except near the
-  // ends, which keep their height. It lifts no frame higher than the one that needs it.
+  // By how much to raise frames: at least as much as each has `sunk`, and no frame higher than the
+  // one that needs it. The ends keep their height; next to them a raise takes kSettleSeconds.
   std::vector<double> Raises(const std::vector<double>& sunk) const {
     std::vector<double> raises(sunk.size());
     for (int frame = 0; frame < frames_; ++frame) {

@@ -252,7 +252,7 @@ class PelvisSolver {
   const double step_;  // squared seconds between frames
   const int push_;     // frames in which legs may push
   Eigen::Matrix3Xd offset_;
-  int first_borne_, last_borne_;  // frames with a standing foot
+  int first_borne_, last_borne_;  // frames with a joint on the floor
   // Whether the flight before first_borne_, and the one after last_borne_, are leaps.
   bool lands_ = false, takes_off_ = false;
   std::vector<bool> leaps_;   // per frame

@@ -40,8 +40,8 @@ struct PelvisRules {
 /// and the zero moment point stay over the feet; jumps fall at 9.81 m/s², from feet to feet, to a
 /// key in the air, or from the air to the feet. A body that rises from its knees, hands or seat, or
 /// goes down on them, does not jump. `centre_before`: the plan's centre of mass in the frame before
-/// the first. Hulls and legs are not linear, so rounds linearise again at their nearest points,
-/// until the pelvis moves by less than a tenth of FootworkOptions::reach. Pure.
+/// the first. Hulls and legs are not linear, so rounds, at most 12, linearise again at their
+/// nearest points, until the pelvis moves by less than a tenth of FootworkOptions::reach. Pure.
 Eigen::Matrix3Xd PelvisOffset(const std::vector<SupportFrame>& frames,
                               const Eigen::Vector3d& centre_before, const PelvisRules& rules);
 

@@ -73,7 +73,7 @@ TEST_F(StudioTest, AnswersAFailureOfADancesThread) {
   EXPECT_EQ(answered.get_future().get(), "the page is gone");
 }
 
-// Its reader still waits for the server's status when the page hears of the end.
+// Its reader has not ended yet when the page hears of the end.
 TEST_F(StudioTest, ANumberIsFreeOnceItsDanceHasEnded) {
   const StudioContext context({.addresses = {server_.address()}}, {}, {});
   std::binary_semaphore ended(0), again(0);
