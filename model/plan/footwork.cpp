@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "model/core/smooth_step.h"
 #include "model/motion/body_mass.h"
@@ -29,10 +30,7 @@ class PlanStander {
         skeleton_(context.skeleton),
         feet_(context.skeleton),
         plan_(*plan),
-        frames_(static_cast<int>(plan->size())),
-        carried_before_(
-            !CarriersOf(skeleton_, feet_, JointPositions(skeleton_, context.history.back()))
-                 .empty()) {
+        frames_(static_cast<int>(plan->size())) {
     for (const Pose& pose : plan_) {
       planned_.push_back(ForwardKinematics(skeleton_, pose));
       carriers_.push_back(CarriersOf(skeleton_, feet_, planned_.back().positions));
@@ -61,7 +59,7 @@ class PlanStander {
         offset_ = PelvisOffset(Supports(), centres_.front() - context_.offset_before.col(1),
                                {.returns = context_.keyed,
                                 .heights_alone = context_.has_path,
-                                .carried_before = carried_before_,
+                                .since_carried = SinceCarried(),
                                 .before = context_.offset_before,
                                 .fps = context_.fps,
                                 .options = context_.options});
@@ -83,6 +81,16 @@ class PlanStander {
   // The completed share of a change over kSettleSeconds after `frames` frames.
   double Settled(int frames) const {
     return SmoothStep(std::clamp(frames / (kSettleSeconds * context_.fps), 0.0, 1.0));
+  }
+  // How many frames before the first one other joints than the feet's carried the body.
+  int SinceCarried() const {
+    const auto carries = [this](const Pose& pose) {
+      return !CarriersOf(skeleton_, feet_, JointPositions(skeleton_, pose)).empty();
+    };
+    const auto& history = context_.history;
+    const auto last = std::find_if(history.rbegin(), history.rend(), carries);
+    return last == history.rend() ? std::numeric_limits<int>::max()
+                                  : static_cast<int>(last - history.rbegin()) + 1;
   }
   bool IsKey(int frame) const { return context_.keyed && frame == frames_ - 1; }
 
@@ -299,7 +307,6 @@ class PlanStander {
   const FeetAtRest feet_;
   std::vector<Pose>& plan_;
   const int frames_;
-  const bool carried_before_;                           // by other joints than the feet's
   std::vector<JointPlacement> planned_;                 // the plan as proposed
   std::vector<std::vector<Eigen::Vector2d>> carriers_;  // by frame
   std::vector<Eigen::Vector3d> centres_;

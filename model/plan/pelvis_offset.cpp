@@ -115,18 +115,19 @@ class PelvisSolver {
   bool Flies(int frame) const { return At(frame).support.empty(); }
   // Whether the frame is in a flight whose length suits its height.
   bool Leaps(int frame) const { return leaps_[static_cast<size_t>(frame)]; }
+  // Whether anything but feet carries the body in one of these frames.
+  bool Carried(int from, int to) const {
+    return -rules_.since_carried >= from ||
+           std::any_of(frames_.begin() + std::max(0, from), frames_.begin() + std::min(count_, to),
+                       [](const SupportFrame& frame) { return frame.carried; });
+  }
   // Flights from feet to feet, and at the ends those that land and take off. While other joints
   // are on the floor, legs can't push.
   void FindLeaps() {
-    const auto carried = [this](int from, int to) {
-      return std::any_of(frames_.begin() + std::max(0, from),
-                         frames_.begin() + std::min(count_, to),
-                         [](const SupportFrame& frame) { return frame.carried; });
-    };
     for (int from = 0, to = 0; from < count_; from = to + 1) {
       for (to = from; to < count_ && Flies(to);) ++to;
-      const bool leaves = from > 0 ? !carried(from - push_, from) : lands_;
-      const bool arrives = to < count_ ? !carried(to, to + push_) : takes_off_;
+      const bool leaves = from > 0 ? !Carried(from - push_, from) : lands_;
+      const bool arrives = to < count_ ? !Carried(to, to + push_) : takes_off_;
       std::fill(leaps_.begin() + from, leaps_.begin() + to, leaves && arrives);
     }
   }
@@ -135,7 +136,7 @@ class PelvisSolver {
   // Whether a body that flies before the first frame and falls freely lands near its plan. Feet
   // slightly above the floor in a recording are not a leap.
   bool Lands() const {
-    if (first_borne_ == 0 || first_borne_ == count_ || rules_.carried_before) return false;
+    if (first_borne_ == 0 || first_borne_ == count_ || Carried(-push_, 0)) return false;
     const int frames = first_borne_ + 1;
     const double planned = Planned(-1).y() - Planned(first_borne_).y();
     const double fall = Fall(frames) - (Planned(0).y() - Planned(-1).y()) * frames;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <limits>
 #include <vector>
 
 #include "model/plan/footwork_options.h"
@@ -26,9 +27,10 @@ struct SupportFrame {
 
 /// Limits on the motion of the pelvis, which moves the whole body.
 struct PelvisRules {
-  bool returns = false;         ///< zero in the last frame, which is a key
-  bool heights_alone = false;   ///< only heights move, as a path fixes the floor position
-  bool carried_before = false;  ///< SupportFrame::carried in the frame before the first
+  bool returns = false;        ///< zero in the last frame, which is a key
+  bool heights_alone = false;  ///< only heights move, as a path fixes the floor position
+  /// How many frames before the first one SupportFrame::carried was last true.
+  int since_carried = std::numeric_limits<int>::max();
   /// The offset in the two frames before the first, oldest first.
   Eigen::Matrix<double, 3, 2> before = Eigen::Matrix<double, 3, 2>::Zero();
   double fps;

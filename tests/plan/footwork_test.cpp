@@ -207,7 +207,12 @@ TEST(StandOnFeet, ARisingBodyIsLiftedNoHigherThanItMust) {
   FootworkContext context = Context();
   context.history = history;
   context.keyed = true;
+  const auto lowest = [](const Pose& pose) {
+    return JointPositions(Body(), pose).row(1).minCoeff();
+  };
+  ASSERT_LT(lowest(plan[kSwing / 2]), -0.2);
   StandOnFeet(context, &plan);
+  for (const Pose& pose : plan) EXPECT_GT(lowest(pose), -0.1);
   double highest = 0, falls = 0;
   for (const Pose& pose : plan) {
     highest = std::max(highest, pose.root_position.y());

@@ -98,13 +98,18 @@ TEST(PelvisOffset, RisesFromTheFloorWithoutALeap) {
   Fly(&frames, 0, 6);
   for (int i = 0; i < 6; ++i)
     frames[static_cast<size_t>(i)].centre.y() += 0.125 * (1 + std::cos(i * M_PI / 6));
-  const auto moved = [&](bool carried_before) {
-    const PelvisRules rules{.carried_before = carried_before, .fps = kFps};
+  const auto moved = [&](int since_carried) {
+    const PelvisRules rules{.since_carried = since_carried, .fps = kFps};
     const Eigen::Matrix3Xd offset = PelvisOffset(frames, {0, kHeight + 0.25, 0}, rules);
     return offset.row(1).cwiseAbs().maxCoeff();
   };
-  EXPECT_GT(moved(false), 0.02);
-  EXPECT_LT(moved(true), 0.005);
+  EXPECT_GT(moved(20), 0.02);
+  for (const int since : {1, 5}) EXPECT_LT(moved(since), 0.005) << since;
+  // She has stood for three frames only.
+  frames = Still(0);
+  Fly(&frames, 2, 12);
+  EXPECT_GT(moved(20), 0.02);
+  EXPECT_LT(moved(1), 0.005);
 }
 
 // Legs that are long enough once the body moves over its feet must not lift it as well.
