@@ -26,17 +26,23 @@ TEST(StyleFiguresFile, IsOfTheShippedCheckpoints) {
   }
 }
 
+std::string Figures(int recognised, int chance, int low) {
+  return R"({"weights": "a", "styles": {"recognised": )" + std::to_string(recognised) +
+         R"(, "chance": )" + std::to_string(chance) + R"(, "low": )" + std::to_string(low) + "}}";
+}
+
 TEST(StyleFiguresFile, MayBeMissingButNotBroken) {
   const std::filesystem::path folder = testing::TempDir();
   const std::filesystem::path checkpoint = folder / "measured.safetensors";
   const std::filesystem::path file = folder / "measured.figures.json";
   EXPECT_FALSE(ReadStyleFigures(checkpoint, "a"));
-  const std::string whole =
-      R"({"weights": "a", "styles": {"recognised": 60, "chance": 25, "low": 50}})";
+  const std::string whole = Figures(60, 25, 50);
   WriteFile(file, whole);
   EXPECT_EQ(ReadStyleFigures(checkpoint, "a")->low, 50);
-  for (const std::string& broken : {std::string("{"), std::string(R"({"weights": "a"})"),
-                                    std::string(1'000, '['), whole + std::string(100'000, ' ')}) {
+  for (const std::string& broken :
+       {std::string("{"), std::string(R"({"weights": "a"})"), std::string(1'000, '['),
+        whole + std::string(100'000, ' '), Figures(120, 25, 50), Figures(60, -1, 50),
+        Figures(60, 25, 61)}) {
     WriteFile(file, broken);
     ExpectError(ErrorCode::kInvalidArgument, file.string(),
                 [&] { ReadStyleFigures(checkpoint, "a"); });
