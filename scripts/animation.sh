@@ -10,4 +10,4 @@ trap 'rm -rf "$scratch"' EXIT
 "$1/choreo" render "$scratch/dance.npz" --report "$scratch/report.json" --video "$scratch/dance.mp4" --size 800x720 --fps 12
 # Small enough for a page: whitens the wall and smooths the film's grain, so that most of a frame repeats the one before.
 ffmpeg -v error -y -i "$scratch/dance.mp4" -vf "hqdn3d=0:0:8:8,scale=320:288:flags=area,colorlevels=rimax=0.93:gimax=0.93:bimax=0.915" \
-  -c:v libwebp_anim -compression_level 5 -q:v 30 -loop 0 "$2"
+  -c:v libwebp_anim -compression_level 5 -q:v 20 -loop 0 "$2"
