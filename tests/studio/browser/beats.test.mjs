@@ -22,7 +22,7 @@ await inStudio(async ({ page, until, settle, message, frames, give, download }) 
   await check('the ruler counts to eight where there is room, and bars are seen', async () => {
     const texts = await page.locator('.beat').allInnerTexts();
     assert.match(texts.join(''), /^[1-8]*?(12345678){8}/);
-    assert.equal(await page.locator('.beat.down').count(), Math.round(texts.length / 4));
+    assert.deepEqual(await page.locator('.beat.down').allInnerTexts(), texts.filter((text) => text === '1' || text === '5'));
     for (let i = 0; i < 6; ++i) await press('Show more of the song');
     const few = (await page.locator('.beat').allInnerTexts()).filter(Boolean);
     assert.ok(few.length > 5 && few.every((text) => text === '1'), few.join(''));
