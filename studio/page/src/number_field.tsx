@@ -19,18 +19,23 @@ type Props = {
 export function NumberField({ label, name, value, low, high, step, rule, set, focused }: Props) {
   /// The message for invalid input, until the number changes.
   const hint = useSignal({ text: '', at: value });
+  /// What is being typed, which no drawing of the panel may overwrite; what is wrong stays until the field is left.
+  const typed = useSignal<string | null>(null);
   const slip = Math.abs(hint.value.at - value) < 1e-3 ? hint.value.text : '';
   const id = useId();
   const take = (text: string) => {
     const wanted = text.trim() === '' ? NaN : Number(text);
     const isFine = wanted >= low && wanted <= high;
     hint.value = { text: isFine ? '' : `${rule}${text.trim() === '' ? ': a number is missing' : `, not ${text}`}.`, at: value };
-    if (isFine && wanted !== value) set(wanted);
+    if (!isFine) return;
+    typed.value = null;
+    if (wanted !== value) set(wanted);
   };
   const press = (event: KeyboardEvent) => {
     const way = { ArrowUp: 1, ArrowDown: -1, PageUp: 10, PageDown: -10 }[event.key];
     if (!way) return;
     event.preventDefault();
+    typed.value = null;
     const wanted = Math.round((value + way * step * (event.shiftKey ? 10 : 1)) / step) * step;
     const most = Math.min(Math.max(wanted, low), high);
     hint.value = { text: most === wanted ? '' : `${rule}.`, at: most };
@@ -39,12 +44,10 @@ export function NumberField({ label, name, value, low, high, step, rule, set, fo
   return (
     <label class="number">
       <span aria-hidden="true">{label}</span>
-      <input type="number" step="any" min={low} max={high} value={Number(value.toFixed(step < 1 ? 2 : 1))} aria-label={name}
+      <input type="number" step="any" min={low} max={high} value={typed.value ?? Number(value.toFixed(step < 1 ? 2 : 1))} aria-label={name}
         aria-invalid={!!slip} aria-describedby={slip ? id : undefined}
-        onKeyDown={press} onFocus={focused} onChange={(event) => take(event.currentTarget.value)}
-        onBlur={(event) => {
-          if (slip) event.currentTarget.value = String(Number(value.toFixed(step < 1 ? 2 : 1)));
-        }} />
+        onKeyDown={press} onFocus={focused} onInput={(event) => (typed.value = event.currentTarget.value)}
+        onChange={(event) => take(event.currentTarget.value)} onBlur={() => (typed.value = null)} />
       {slip && <span id={id} class="small off" role="alert">{slip}</span>}
     </label>
   );

@@ -65,7 +65,12 @@ await inStudio(async ({ page, until, settle, frames, give, download }) => {
   await check('she is mirrored, counts later, and turned', async () => {
     await panel.getByLabel('Mirrored').nth(1).check();
     await type('dancer2, counts later', 4);
-    await type('dancer2, degrees that her dance is turned', 90);
+    await formed();
+    const turned = panel.getByLabel('dancer2, degrees that her dance is turned');
+    await turned.fill('90');
+    await page.evaluate(() => void (window.choreo.formation.value = { ...window.choreo.formation.value })); // as where one comes meanwhile
+    assert.equal(await turned.inputValue(), '90', 'what is typed is lost');
+    await page.keyboard.press('Tab');
     const { widened } = await formed();
     await seek(120);
     const [x, y, z] = await rootAt(60); // 4 counts are two seconds
