@@ -47,6 +47,8 @@ function Wave() {
       waveColor: colour('wave'),
       progressColor: colour('wave-done'),
     });
+    // Until the song plays or is sought, nothing else tells the new wave how much of it was played.
+    wave.on('ready', () => studio.audio.dispatchEvent(new Event('timeupdate')));
     return () => wave.destroy();
   }, [value, zoom.value, isDark.value]);
   // As wide as the song, which may exist before the project; wavesurfer.js fails with width 0.

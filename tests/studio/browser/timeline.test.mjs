@@ -40,6 +40,22 @@ await inStudio(async ({ page, until, settle, message, scale, frames, give }) => 
     await page.keyboard.press('Space');
   });
 
+  await check('the part of the wave that was played stays coloured at another scale', async () => {
+    /// Waits for another wave than this one, a quarter of which was played.
+    const isQuarterPlayed = (before) => until((before) => {
+      const wave = document.querySelector('.wave > div');
+      return wave !== before && Math.round(parseFloat(wave?.shadowRoot.querySelector('.progress')?.style.width)) === 25;
+    }, before);
+    await page.evaluate((seconds) => (window.choreo.audio.currentTime = seconds), seconds / 4);
+    await isQuarterPlayed(null);
+    for (const name of ['Show less of the song', 'Show more of the song']) {
+      const before = await page.locator('.wave > div').elementHandle();
+      await page.getByRole('button', { name }).click();
+      await isQuarterPlayed(before);
+    }
+    await page.evaluate(() => (window.choreo.audio.currentTime = 0));
+  });
+
   await check('a pose dropped on a key takes its place: it is said, and undo brings the other one back', async () => {
     const before = await keys();
     const { id, frame } = before[2];
