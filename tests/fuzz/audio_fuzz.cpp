@@ -1,7 +1,7 @@
 #include "model/audio/decode/decode.h"
 #include "tests/fuzz/fuzz.h"
 
-int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+FUZZ_TARGET(audio) {
   using namespace choreo;
   struct Enough {};
   int pieces = 0;

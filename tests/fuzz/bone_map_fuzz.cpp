@@ -6,7 +6,7 @@
 #include "tests/fuzz/input_file.h"
 
 // A map, and what it makes of a rig: SMPL's, of which two nodes have one name and one has none.
-int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+FUZZ_TARGET(bone_map) {
   using namespace choreo;
   static const fuzz::InputFile input(".json");
   static const RigNodes rig = [] {

@@ -1,7 +1,7 @@
 #include "model/formats/bvh/bvh.h"
 #include "tests/fuzz/fuzz.h"
 
-int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+FUZZ_TARGET(bvh) {
   using namespace choreo;
   fuzz::MayRefuse([&] {
     const BvhFile file = ParseBvh(fuzz::Text(data, size), "a.bvh");

@@ -5,7 +5,7 @@
 #include "tests/fuzz/fuzz.h"
 #include "tests/fuzz/input_file.h"
 
-int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+FUZZ_TARGET(character) {
   using namespace choreo;
   static const fuzz::InputFile input(".glb"), out(".out.glb");
   fuzz::MayRefuse([&] {

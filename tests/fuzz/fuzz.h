@@ -4,16 +4,36 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
+#include <map>
 #include <span>
+#include <string>
 #include <string_view>
 
 #include "model/core/error.h"
 
 /// What every target of this folder needs. A target is one function over bytes that somebody else
-/// made up; libFuzzer calls it (preset `fuzz`), or replay.cpp does, in `make test`.
+/// made up, `data` and `size`: FUZZ_TARGET(npy) { ... return 0; }. libFuzzer calls it (preset
+/// `fuzz`, a program each), or replay.cpp does, in `make test`, all in one program.
+#ifdef CHOREO_FUZZ
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size);
+#define FUZZ_TARGET(name) int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size)
+#else
+#define FUZZ_TARGET(name)                                           \
+  static int name##_target(const uint8_t* data, size_t size);       \
+  [[maybe_unused]] static const bool name##_is_known =              \
+      choreo::fuzz::Targets().emplace(#name, name##_target).second; \
+  static int name##_target(const uint8_t* data, size_t size)
+#endif
 
 namespace choreo::fuzz {
+
+using Target = int (*)(const uint8_t* data, size_t size);
+
+/// This program's targets by name.
+inline std::map<std::string, Target>& Targets() {
+  static std::map<std::string, Target> targets;
+  return targets;
+}
 
 inline std::string_view Text(const uint8_t* data, size_t size) {
   return {reinterpret_cast<const char*>(data), size};

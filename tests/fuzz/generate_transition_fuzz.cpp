@@ -26,7 +26,7 @@ v1::GenerateTransitionRequest MakeRequest(int flags) {
 }  // namespace
 }  // namespace choreo
 
-int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+FUZZ_TARGET(generate_transition) {
   using namespace choreo;
   static fuzz::RpcServer& server = *new fuzz::RpcServer;
   fuzz::Decisions decisions(data, size);

@@ -3,7 +3,7 @@
 #include "tests/fuzz/fuzz.h"
 #include "tests/fuzz/input_file.h"
 
-int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+FUZZ_TARGET(glb) {
   using namespace choreo;
   static const fuzz::InputFile input(".glb");
   fuzz::MayRefuse([&] {

@@ -2,7 +2,7 @@
 #include "client/authoring/keys/pose_file.h"
 #include "tests/fuzz/fuzz.h"
 
-int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+FUZZ_TARGET(key_file) {
   using namespace choreo;
   const std::string text(fuzz::Text(data, size));
   const Skeleton& skeleton = Skeleton::Smpl24();

@@ -7,7 +7,7 @@
 
 #include "tests/fuzz/fuzz.h"
 
-int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+FUZZ_TARGET(midi_clock) {
   using namespace choreo;
   int ends[2];
   if (pipe(ends) != 0) fuzz::Fail("there is no pipe");

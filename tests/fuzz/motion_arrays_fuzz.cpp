@@ -57,7 +57,7 @@ NpyArray MakeArray(fuzz::Decisions& decisions) {
 }  // namespace
 }  // namespace choreo
 
-int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+FUZZ_TARGET(motion_arrays) {
   using namespace choreo;
   fuzz::Decisions decisions(data, size);
   fuzz::MayRefuse([&] {

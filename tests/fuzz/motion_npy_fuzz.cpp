@@ -3,7 +3,7 @@
 #include "tests/fuzz/input_file.h"
 
 // A dict that numpy.save wrote, or joints' places.
-int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+FUZZ_TARGET(motion_npy) {
   using namespace choreo;
   static const fuzz::InputFile input(".npy");
   fuzz::MayRefuse([&] { ReadMotion(input.Holding(fuzz::Text(data, size))); });

@@ -1,7 +1,7 @@
 #include "model/core/npy.h"
 #include "tests/fuzz/fuzz.h"
 
-int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+FUZZ_TARGET(npy) {
   using namespace choreo;
   fuzz::MayRefuse([&] {
     const NpyArray array = ParseNpy(fuzz::Text(data, size), "a.npy");

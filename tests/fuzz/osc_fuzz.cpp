@@ -12,7 +12,7 @@ uint16_t Port() { return static_cast<uint16_t>(20'000 + getpid() % 10'000); }
 
 }  // namespace
 
-int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+FUZZ_TARGET(osc) {
   using namespace choreo;
   static const std::unique_ptr<live::Cues> cues = live::HearOsc(Port());
   static const int sender = socket(AF_INET, SOCK_DGRAM, 0);

@@ -1,5 +1,6 @@
 // What `make test` has in place of libFuzzer: the seeds, and what a fixed generator makes of them.
-//   fuzz_NAME FOLDER MUTATIONS
+//   fuzz_replay FOLDER MUTATIONS
+// The folder has the seeds, and its target's name.
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -110,9 +111,9 @@ class Mutator {
   std::mt19937_64 random_{1};
 };
 
-void Run(const Bytes& bytes) {
+void Run(Target target, const Bytes& bytes) {
   alarm(kHangs);  // its signal ends the program
-  LLVMFuzzerTestOneInput(bytes.data(), bytes.size());
+  target(bytes.data(), bytes.size());
 }
 
 }  // namespace
@@ -127,11 +128,14 @@ int main(int argc, char** argv) {
   // No small input may take much; sanitizers do.
   const rlimit memory{kMemory, kMemory};
   if (!kSanitized) setrlimit(RLIMIT_DATA, &memory);
-  const std::vector<Bytes> seeds = ReadSeeds(argv[1]);
+  const std::filesystem::path folder = argv[1];
+  const auto target = Targets().find(folder.filename());
+  if (target == Targets().end()) Fail("there is no such target");
+  const std::vector<Bytes> seeds = ReadSeeds(folder);
   if (seeds.empty()) Fail("there are no seeds");
   const int mutations = std::stoi(argv[2]);
-  for (const Bytes& seed : seeds) Run(seed);
+  for (const Bytes& seed : seeds) Run(target->second, seed);
   Mutator mutator(seeds);
-  for (int i = 0; i < mutations; ++i) Run(mutator.Next());
+  for (int i = 0; i < mutations; ++i) Run(target->second, mutator.Next());
   std::printf("%zu seeds and %d mutations of them\n", seeds.size(), mutations);
 }

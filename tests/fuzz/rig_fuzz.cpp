@@ -4,7 +4,7 @@
 #include "tests/fuzz/input_file.h"
 
 // All steps for a foreign rig: bones by their names, turns, plausibility.
-int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+FUZZ_TARGET(rig) {
   using namespace choreo;
   static const fuzz::InputFile input(".bvh");
   fuzz::MayRefuse([&] {

@@ -86,7 +86,7 @@ class Script {
 }  // namespace
 }  // namespace choreo
 
-int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+FUZZ_TARGET(stream_dance) {
   using namespace choreo;
   static fuzz::RpcServer& server = *new fuzz::RpcServer;
   fuzz::Decisions decisions(data, size);
