@@ -18,7 +18,7 @@ export TSAN_OPTIONS="suppressions=$root/tests/tsan.supp ${TSAN_OPTIONS:-}"
 running() { find /proc -maxdepth 2 -name exe -lname "$(realpath "$build")/*" 2>/dev/null | cut -d/ -f3 | sort || true; }
 before=$(running)
 rc=0
-# Cases of a program that loads LibTorch share processes (choreo_test's TOGETHER).
+# Cases of programs that don't wait share processes (choreo_test).
 together=$build/Testing/together
 rm -rf "$together"
 run=(ctest --test-dir "$build" -C together -LE alone --output-on-failure -j "$jobs" --no-tests=error --output-junit "$report")
