@@ -1,5 +1,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <wordexp.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -7,9 +8,11 @@
 #include <iterator>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "model/lab/lab.h"
 #include "tests/support/sanitizers.h"
 #include "tests/support/shell.h"
 #include "tests/support/synthetic_clips.h"
@@ -19,8 +22,25 @@ namespace choreo::lab_test {
 
 using testing::HasSubstr;
 
-Outcome Lab(const std::string& arguments, const std::filesystem::path& folder = ".") {
+/// choreo-lab in a process of its own. LibTorch takes a CPU second to load.
+Outcome LabProgram(const std::string& arguments, const std::filesystem::path& folder = ".") {
   return Shell("cd '" + folder.string() + "' && '" CHOREO_LAB "' " + arguments);
+}
+
+/// choreo-lab in this process, which reads its arguments as a shell does.
+Outcome Lab(const std::string& arguments, const std::filesystem::path& folder = ".") {
+  wordexp_t words;
+  if (wordexp(("choreo-lab " + arguments).c_str(), &words, WRDE_NOCMD) != 0)
+    throw std::invalid_argument(arguments);
+  const std::filesystem::path here = std::filesystem::current_path();
+  std::filesystem::current_path(folder);
+  testing::internal::CaptureStdout();
+  testing::internal::CaptureStderr();
+  Outcome outcome{.code = RunLab(static_cast<int>(words.we_wordc), words.we_wordv), .said = ""};
+  outcome.said = testing::internal::GetCapturedStdout() + testing::internal::GetCapturedStderr();
+  std::filesystem::current_path(here);
+  wordfree(&words);
+  return outcome;
 }
 
 /// The commands of a page of docs/: its lines that begin with choreo-lab, without that word.
@@ -40,7 +60,7 @@ std::vector<std::string> CommandsOf(const std::string& page) {
 const std::string kTrain = "train --data /absent --splits /absent.json --run /absent/run ";
 
 TEST(LabTest, HelpDescribesTheCommands) {
-  EXPECT_EQ(Lab("--version").code, 0);
+  EXPECT_EQ(LabProgram("--version").code, 0);
   for (const char* command : {"", "train", "eval"}) {
     const Outcome outcome = Lab(std::string(command) + " --help");
     EXPECT_EQ(outcome.code, 0) << command;
@@ -120,8 +140,8 @@ class LabEval : public testing::Test {
     ASSERT_EQ(outcome.code, 0) << outcome.said;
   }
 
-  Outcome Eval(const std::string& arguments) {
-    return Lab("eval --model ablation/checkpoint.safetensors" + kData +
+  Outcome Eval(const std::string& arguments, decltype(Lab)& lab = Lab) {
+    return lab("eval --model ablation/checkpoint.safetensors" + kData +
                    " --lengths 10 20 --windows 2 --best-of 2 --long-dances 2 --long-frames 60 "
                    "--free-dances 2 " +
                    arguments,
@@ -140,7 +160,7 @@ TEST_F(LabEval, WritesEveryTableAndTheSameBytesAgain) {
   const std::string arguments = "--engine packed --baseline real interpolation --name mine ";
   const Outcome first = Eval(arguments + "--json one/t.json");
   ASSERT_EQ(first.code, 0) << first.said;
-  const Outcome second = Eval(arguments + "--json two/t.json");
+  const Outcome second = Eval(arguments + "--json two/t.json", LabProgram);
   ASSERT_EQ(second.code, 0) << second.said;
   const auto one = folder_.path() / "one", two = folder_.path() / "two";
   for (const auto& file : std::filesystem::directory_iterator(one)) {
