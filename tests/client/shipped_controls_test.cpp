@@ -12,7 +12,7 @@
 #include "model/motion/kinematics.h"
 #include "model/motion/rotation.h"
 #include "model/motion/velocity_factors.h"
-#include "tests/client/command_fixture.h"
+#include "tests/client/run_choreo.h"
 #include "tests/support/sanitizers.h"
 #include "tests/support/temporary_folder.h"
 
