@@ -5,29 +5,15 @@
 
 #include "model/body/doll.h"
 #include "model/core/error.h"
+#include "model/motion/segment.h"
 
 namespace choreo {
 namespace {
 
 using Eigen::Vector3f;
 
-/// The nearest points of two axes, as shares of their lengths (Ericson, Real-Time Collision
-/// Detection, 5.1.9).
-std::pair<float, float> NearestPoints(const RoundedCone& p, const RoundedCone& q,
-                                      const Vector3f& moved) {
-  const Vector3f along_p = p.b - p.a, along_q = q.b - q.a, between = p.a - q.a - moved;
-  const float pp = along_p.squaredNorm(), qq = along_q.squaredNorm();
-  const float pq = along_p.dot(along_q), pr = along_p.dot(between), qr = along_q.dot(between);
-  const auto share = [](float part, float whole) {
-    return whole > 0 ? std::clamp(part / whole, 0.0f, 1.0f) : 0;
-  };
-  const float on_p = share(pq * qr - pr * qq, pp * qq - pq * pq);
-  const float on_q = share(pq * on_p + qr, qq);
-  return {share(pq * on_q - pr, pp), on_q};
-}
-
 float Distance(const RoundedCone& p, const RoundedCone& q, const Vector3f& moved) {
-  const auto [s, t] = NearestPoints(p, q, moved);
+  const auto [s, t] = NearestPoints<Vector3f>(p.a, p.b, q.a + moved, q.b + moved);
   const Vector3f between = (1 - s) * p.a + s * p.b - (1 - t) * q.a - t * q.b - moved;
   return between.norm() - (1 - s) * p.radius_a - s * p.radius_b - (1 - t) * q.radius_a -
          t * q.radius_b;
