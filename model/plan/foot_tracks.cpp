@@ -105,11 +105,8 @@ FeetAtRest::FeetAtRest(const Skeleton& skeleton)
 std::vector<Eigen::Vector2d> CarriersOf(const Skeleton& skeleton, const FeetAtRest& feet,
                                         const Eigen::Matrix3Xd& joints) {
   std::vector<Eigen::Vector2d> carriers;
-  for (int joint = 0; joint < skeleton.joints(); ++joint) {
-    const bool foot = std::ranges::find(skeleton.feet, joint) != skeleton.feet.end();
-    if (!foot && joints(1, joint) < feet.clearance[joint] + kSoleHeight)
-      carriers.emplace_back(joints(0, joint), joints(2, joint));
-  }
+  for (const int joint : JointsOnFloor(skeleton, feet.clearance, joints))
+    carriers.emplace_back(joints(0, joint), joints(2, joint));
   return carriers;
 }
 
