@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "model/motion/body_limits.h"
+#include "model/motion/floor_clearance.h"
 #include "model/motion/kinematics.h"
 #include "model/motion/pose_faults.h"
 #include "model/plan/takes.h"
@@ -110,10 +111,19 @@ void TransitionRun::ToCanonicalFrame(TransitionSpec* spec) const {
   spec->controls.ToLocal(ground_);
   for (size_t i = 0; i < spec->controls.rows().size(); ++i)
     spec->controls[i].values = spec->controls[i].values.unaryExpr(&ToFloat);
+  const bool to_floor = spec->target && EndsOnFloor(*spec);
+  if (to_floor) spec->arrival_frames *= 3;  // to slow down
   if (spec->after)
     spec->after = ground_.ToLocal(*spec->after);
-  else if (spec->target && (spec->hit || held_))
+  else if (spec->target && (spec->hit || held_ || to_floor))
     spec->after = spec->target->pose;  // at rest
+}
+
+// Whether the key's pose sits, lies or kneels. The floor stops a body that goes down.
+bool TransitionRun::EndsOnFloor(const TransitionSpec& spec) const {
+  Pose key = Masked(spec.target->pose, spec.target->mask, spec.history.back());
+  if (spec.target->height) key.root_position.y() = *spec.target->height;
+  return RestsOnFloor(model_->skeleton, key);
 }
 
 // The largest ratio of a joint's speed to the limit of human bodies. 0 if another take would not be

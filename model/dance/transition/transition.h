@@ -86,6 +86,7 @@ class TransitionRun {
 
  private:
   void ToCanonicalFrame(TransitionSpec* spec) const;
+  bool EndsOnFloor(const TransitionSpec& spec) const;
   double ExcessOf(const std::vector<Pose>& poses) const;
   Slices<ProcessedPlan> DanceOnce(Sampler& sampler) const;
   void SetFrames(const ProcessedPlan& processed);

@@ -64,6 +64,22 @@ TEST(Transition, SpecIsInTheCanonicalFrame) {
             1e-9);
 }
 
+// The floor stops a body, so it slows down before.
+TEST(Transition, AKeyOnTheFloorIsReachedAtRest) {
+  FakeSampler sampler;
+  TransitionSpec request = RandomRequest(3);
+  request.history.assign(10, StandingPose(Skeleton::Smpl24()));
+  request.target->pose = request.history.back();
+  const auto last_step = [&](double down) {
+    request.target->pose.root_position.y() = request.history.back().root_position.y() - down;
+    const std::vector<DanceFrame> frames = DanceTransition(sampler, request).frames();
+    return frames[frames.size() - 2].pose.root_position.y() - frames.back().pose.root_position.y();
+  };
+  constexpr double kToTheSeat = 0.8, kToTheKnees = 0.3;
+  EXPECT_GT(last_step(kToTheKnees), 0.5 * kToTheKnees / request.frames) << "on its feet still";
+  EXPECT_LT(last_step(kToTheSeat), 0.3 * kToTheSeat / request.frames);
+}
+
 // Only the path leads the root, also when it comes to rest.
 TEST(Transition, AKeyHitOnAPathIsWhereThePathEnds) {
   ControlledSampler sampler;
