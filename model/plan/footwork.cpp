@@ -222,12 +222,14 @@ class PlanStander {
     }
   }
 
-  // The share of a raise, metres, at some frames from it. A smooth step of h metres in t seconds
-  // accelerates by at most 6 h / t².
-  double Share(int frames, double raise) const {
-    const double seconds =
-        std::max(kSettleSeconds, std::sqrt(6 * raise / context_.options.acceleration));
-    return 1 - SmoothStep(std::min(1.0, std::abs(frames) / (seconds * context_.fps)));
+  // The share of a raise, metres, that a frame has if the frame `at` has all of it. A raise begins
+  // with the plan at the earliest.
+  double Share(int frame, int at, double raise) const {
+    const double usual =
+        context_.fps * std::max(kSettleSeconds, StepSeconds(raise, context_.options.acceleration));
+    const double most = frame < at ? at + 1 : frames_;
+    const double reach = std::max(kSettleSeconds * context_.fps, std::min(usual, most));
+    return 1 - SmoothStep(std::min(1.0, std::abs(frame - at) / reach));
   }
 
   // By how much to raise frames: at least as much as each has `sunk`, and no frame higher than the
@@ -239,8 +241,8 @@ class PlanStander {
       for (size_t at = 0; at < sunk.size(); ++at) {
         const double needed = plan_[at].root_position.y() + sunk[at] -
                               plan_[static_cast<size_t>(frame)].root_position.y();
-        const int away = static_cast<int>(at) - frame;
-        most = std::max(most, std::min(needed, Share(away, sunk[at]) * sunk[at]));
+        const double share = Share(frame, static_cast<int>(at), sunk[at]);
+        most = std::max(most, std::min(needed, share * sunk[at]));
       }
       const int from_end = context_.keyed ? frames_ - 1 - frame : frames_;
       raises[static_cast<size_t>(frame)] = Settled(std::min(frame + 1, from_end)) * most;
