@@ -115,6 +115,7 @@ Slices<ProcessedPlan> ProcessPlan(const ModelInfo& model, const ValidSpec& valid
     processed.correction_m = std::max(processed.correction_m, moved.position_m);
   }
 
+  if (spec.footwork && model.plan_stages && !held) KeepArmsOutside(context, &poses);
   if (spec.footwork) {
     const FootworkContext feet{.skeleton = model.skeleton,
                                .history = spec.history,

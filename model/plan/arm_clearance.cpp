@@ -1,0 +1,239 @@
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <tuple>
+#include <vector>
+
+#include "model/core/smooth_step.h"
+#include "model/motion/floor_clearance.h"
+#include "model/motion/kinematics.h"
+#include "model/motion/rotation.h"
+#include "model/motion/segment.h"
+#include "model/motion/support.h"
+#include "model/plan/plan_stages.h"
+#include "model/plan/toes_path.h"
+
+namespace choreo {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+constexpr int kDetourRounds = 3;  // a turned arm brings other points of it next to the trunk
+
+struct Arm {
+  int shoulder, elbow, wrist, hand;
+  Vector3d outside;  // of the body, in the trunk's frame
+};
+
+// How an arm goes round the trunk.
+struct Detour {
+  Vector3d towards;           // in the trunk's frame
+  std::vector<double> turns;  // per frame, about Lever
+  int left_cm = 0;            // how far the arm is still inside
+  double shaking = 0;         // what it adds to the accelerations of the forearm, squared
+  bool operator<(const Detour& other) const {
+    return std::tie(left_cm, shaking) < std::tie(other.left_cm, other.shaking);
+  }
+};
+
+int ChildOf(const Skeleton& skeleton, int parent) {
+  const auto child = std::ranges::find(skeleton.parents, parent);
+  return child == skeleton.parents.end() ? -1 : static_cast<int>(child - skeleton.parents.begin());
+}
+
+class ArmClearer {
+ public:
+  ArmClearer(const PlanContext& context, std::vector<Pose>* plan)
+      : context_(context),
+        skeleton_(context.skeleton),
+        plan_(*plan),
+        frames_(static_cast<int>(plan->size())),
+        settle_(kSettleSeconds * context.fps),
+        before_(ForwardKinematics(skeleton_, context.history.back())) {
+    int joint = skeleton_.left_shoulder;
+    while (!IsBelow(skeleton_.right_shoulder, joint, skeleton_.parents)) joint = ParentOf(joint);
+    for (; joint >= 0; joint = ParentOf(joint)) spine_.push_back(joint);
+    for (const Pose& pose : plan_) placed_.push_back(ForwardKinematics(skeleton_, pose));
+  }
+
+  void Clear(const Arm& arm) {
+    const std::vector<double> least = Least(arm);
+    for (int from = 0, to = 0; from < frames_; from = to + 1) {
+      for (to = from; to < frames_ && Way(arm, At(to)).norm() < least[Index(to)];) ++to;
+      if (to == from) continue;
+      Detour best = Around(arm, least, from, to, Vector3d::UnitZ());
+      for (const Vector3d& towards : {Vector3d(-Vector3d::UnitZ()), arm.outside})
+        best = std::min(best, Around(arm, least, from, to, towards));
+      Apply(arm, best);
+    }
+  }
+
+ private:
+  static size_t Index(int frame) { return static_cast<size_t>(frame); }
+  int ParentOf(int joint) const { return skeleton_.parents[Index(joint)]; }
+  const JointPlacement& At(int frame) const { return placed_[Index(frame)]; }
+
+  // The shortest way to an arm, turned about its shoulder, from the line through the trunk's
+  // joints.
+  Vector3d Way(const Arm& arm, const JointPlacement& at,
+               const Matrix3d& turn = Matrix3d::Identity()) const {
+    const Vector3d shoulder = at.positions.col(arm.shoulder);
+    const auto turned = [&](int joint) -> Vector3d {
+      return shoulder + turn * (at.positions.col(joint) - shoulder);
+    };
+    const Vector3d elbow = turned(arm.elbow), wrist = turned(arm.wrist);
+    // Fingers are as long as the palm.
+    const Vector3d tip = arm.hand < 0 ? wrist : Vector3d(2 * turned(arm.hand) - wrist);
+    Vector3d above =
+        (at.positions.col(skeleton_.left_shoulder) + at.positions.col(skeleton_.right_shoulder)) /
+        2;
+    Vector3d way = Vector3d::Constant(std::numeric_limits<double>::infinity());
+    for (const int joint : spine_) {
+      const Vector3d below = at.positions.col(joint);
+      for (const auto& [a, b] : {std::pair(elbow, wrist), std::pair(wrist, tip)}) {
+        const auto [on_trunk, on_arm] = NearestPoints(below, above, a, b);
+        const Vector3d one = a + on_arm * (b - a) - below - on_trunk * (above - below);
+        if (one.squaredNorm() < way.squaredNorm()) way = one;
+      }
+      above = below;
+    }
+    return way;
+  }
+
+  // The vector about which the arm turns to move the middle of its forearm `towards`. It is
+  // shorter, the less a turn moves it there, so that it is continuous.
+  Vector3d Lever(const Arm& arm, const JointPlacement& at, const Vector3d& towards) const {
+    return Middle(arm, at).normalized().cross(at.rotations[Index(spine_.front())] * towards);
+  }
+  // The middle of the forearm, from the shoulder.
+  static Vector3d Middle(const Arm& arm, const JointPlacement& at) {
+    return (at.positions.col(arm.elbow) + at.positions.col(arm.wrist)) / 2 -
+           at.positions.col(arm.shoulder);
+  }
+
+  // The least distance from the trunk's line per frame, metres. Near the poses at the ends it is
+  // theirs, if they are inside.
+  std::vector<double> Least(const Arm& arm) const {
+    const auto inside = [&](const JointPlacement& at) {
+      return std::max(0.0, kTrunkDepth - Way(arm, at).norm());
+    };
+    const double first = inside(before_), last = context_.keyed ? inside(placed_.back()) : 0;
+    const auto left = [&](int away) { return 1 - SmoothStep(std::min(1.0, away / (2 * settle_))); };
+    std::vector<double> least;
+    for (int frame = 0; frame < frames_; ++frame)
+      least.push_back(kTrunkDepth -
+                      std::max(first * left(frame + 1), last * left(frames_ - 1 - frame)));
+    return least;
+  }
+
+  // Spreads turns that frames need over their neighbours: a hand moves aside no faster than it
+  // falls. The poses at the ends stay.
+  std::vector<double> Spread(const Arm& arm, const std::vector<double>& needed) const {
+    const double length =
+        skeleton_.offsets.col(arm.elbow).norm() + skeleton_.offsets.col(arm.wrist).norm() / 2;
+    std::vector<double> turns(needed.size());
+    for (int at = 0; at < frames_; ++at) {
+      const double need = needed[Index(at)];
+      if (need == 0) continue;
+      const double reach = std::max(settle_, StepSeconds(need * length, kGravity) * context_.fps);
+      const int to = std::min(frames_, at + static_cast<int>(std::ceil(reach)));
+      for (int frame = std::max(0, at - static_cast<int>(reach)); frame < to; ++frame) {
+        const int from_end = context_.keyed ? frames_ - 1 - frame : frames_;
+        const double share = SmoothStep(std::min(1.0, std::min(frame + 1, from_end) / settle_)) *
+                             (1 - SmoothStep(std::min(1.0, std::abs(frame - at) / reach)));
+        turns[Index(frame)] = std::max(turns[Index(frame)], share * need);
+      }
+    }
+    return turns;
+  }
+
+  // The turn from which an arm that `turn` has turned is `least` away from the trunk's line.
+  double TurnFor(const Arm& arm, const JointPlacement& at, const Vector3d& lever, double turn,
+                 const Vector3d& way, double least) const {
+    // The nearest point moves about as the middle of the forearm does.
+    const Vector3d gain = ExpMap(turn * lever) * lever.cross(Middle(arm, at));
+    const double gg = gain.squaredNorm(), wg = way.dot(gain);
+    if (gg < 1e-9) return turn;
+    return turn + (std::sqrt(wg * wg + gg * (least * least - way.squaredNorm())) - wg) / gg;
+  }
+
+  // The detour of frames [from, to).
+  Detour Around(const Arm& arm, const std::vector<double>& least, int from, int to,
+                const Vector3d& towards) const {
+    Detour detour{.towards = towards, .turns = std::vector<double>(plan_.size())};
+    std::vector<double> needed(plan_.size());
+    const int keys = context_.keyed ? 1 : 0;
+    for (int round = 0;; ++round) {
+      double inside = 0;
+      for (int frame = 0; frame < frames_ - keys; ++frame) {
+        const double turn = detour.turns[Index(frame)];
+        if (turn == 0 && (frame < from || frame >= to)) continue;
+        const Vector3d lever = Lever(arm, At(frame), towards);
+        const Vector3d way = Way(arm, At(frame), ExpMap(turn * lever));
+        const double more = least[Index(frame)] - way.norm();
+        if (more <= 0) continue;
+        inside = std::max(inside, more);
+        needed[Index(frame)] =
+            std::min(M_PI / 2, TurnFor(arm, At(frame), lever, turn, way, least[Index(frame)]));
+      }
+      detour.left_cm = static_cast<int>(std::lround(100 * inside));
+      if (inside == 0 || round == kDetourRounds) break;
+      detour.turns = Spread(arm, needed);
+    }
+    const auto moved = [&](int frame) -> Vector3d {
+      const double turn = frame < 0 || frame >= frames_ ? 0 : detour.turns[Index(frame)];
+      if (turn == 0) return Vector3d::Zero();
+      const Vector3d middle = Middle(arm, At(frame));
+      return ExpMap(turn * Lever(arm, At(frame), towards)) * middle - middle;
+    };
+    for (int frame = 0; frame < frames_; ++frame)
+      detour.shaking += (moved(frame + 1) - 2 * moved(frame) + moved(frame - 1)).squaredNorm();
+    return detour;
+  }
+
+  void Apply(const Arm& arm, const Detour& detour) {
+    for (int frame = 0; frame < frames_; ++frame) {
+      const double turn = detour.turns[Index(frame)];
+      if (turn == 0) continue;
+      JointPlacement& at = placed_[Index(frame)];
+      auto rotation = plan_[Index(frame)].rotations.col(arm.shoulder);
+      const Matrix3d turned =
+          ExpMap(turn * Lever(arm, at, detour.towards)) * at.rotations[Index(arm.shoulder)];
+      rotation =
+          NearestBranch(LogMap(at.rotations[Index(ParentOf(arm.shoulder))].transpose() * turned),
+                        Vector3d(rotation));
+      ForwardKinematics(skeleton_, plan_[Index(frame)], at);
+    }
+  }
+
+  const PlanContext& context_;
+  const Skeleton& skeleton_;
+  std::vector<Pose>& plan_;
+  const int frames_;
+  const double settle_;     // kSettleSeconds, in frames
+  std::vector<int> spine_;  // the trunk's joints, from below the shoulders down to the root
+  const JointPlacement before_;
+  std::vector<JointPlacement> placed_;  // the plan
+};
+
+}  // namespace
+
+void KeepArmsOutside(const PlanContext& context, std::vector<Pose>* plan) {
+  const Skeleton& skeleton = context.skeleton;
+  const std::array shoulders = {skeleton.left_shoulder, skeleton.right_shoulder};
+  const std::array elbows = {skeleton.left_elbow, skeleton.right_elbow};
+  std::vector<Arm> arms;
+  for (size_t side = 0; side < 2; ++side) {
+    const int wrist = elbows[side] < 0 ? -1 : ChildOf(skeleton, elbows[side]);
+    if (shoulders[side] < 0 || wrist < 0) return;
+    arms.push_back({shoulders[side], elbows[side], wrist, ChildOf(skeleton, wrist),
+                    side == 0 ? Vector3d::UnitX() : Vector3d(-Vector3d::UnitX())});
+  }
+  if (plan->empty()) return;
+  ArmClearer clearer(context, plan);
+  for (const Arm& arm : arms) clearer.Clear(arm);
+}
+
+}  // namespace choreo
