@@ -13,6 +13,7 @@ import { firstOutputFrame } from '../../client/node/src/header.js';
 import { Journal } from '../../client/node/src/journal.js';
 import { Patience } from '../../client/node/src/replicas.js';
 import { clicks, live, pcm } from '../../examples/node/music.js';
+import { collect, danceAndKill, told, undisturbed, withClient } from './killed_dance.mjs';
 import { authority, withServer } from './servers.mjs';
 
 const other = process.env.CHOREO_SERVER;
@@ -26,25 +27,7 @@ async function withFolder(use) {
   }
 }
 
-async function withClient(addresses, options, use) {
-  const client = new ChoreoClient(addresses, options);
-  try {
-    return await use(client);
-  } finally {
-    client.close();
-  }
-}
-
 const info = (address, options) => withClient(address, { retry: 0, ...options }, (client) => client.info());
-
-async function collect(answers, each = () => {}) {
-  const all = [];
-  for await (const answer of answers) {
-    all.push(answer);
-    each(answer, all);
-  }
-  return all;
-}
 
 const tokenLine = (token, name) => `${createHash('sha256').update(token).digest('hex')} ${name}\n`;
 
@@ -160,19 +143,6 @@ test('options that cannot be used are named', () =>
     }
   }));
 
-const numbers = (answers) =>
-  ['root_positions', 'rotations', 'contacts'].map((field) => answers.flatMap(({ frames }) => frames?.[field] ?? []));
-/** All that a caller hears, but for how frames are packed and how quick they were. */
-const told = (answers) => ({
-  numbers: numbers(answers),
-  // A rejection comes at once, before or after the frames that are being made.
-  events: answers.flatMap(({ event }) => (event ? JSON.stringify(event) : [])).sort(),
-  continuations: answers.flatMap(({ continuation }) => continuation ?? []),
-  headers: answers.flatMap(({ header }) => header ?? []),
-  reached: answers.at(-1).summary.report.keyframes.map(({ id, frame, errors }) => ({ id, frame, errors })),
-  frames: answers.at(-1).summary.report.frames,
-});
-
 /** Keys that the package refuses itself, but for the third and two removals, and what is wrong with them. Two would move a key that is there. */
 const badKeys = [
   { keyframe: { id: 'moved', time: 'soon' } },
@@ -243,28 +213,6 @@ async function* unkeyed(skeleton, { goOn, ...config } = {}) {
     yield { generate_until: { frame: Math.round(30 * second) } };
   }
 }
-
-/** Dances, and kills the server once `isTime(answers)`, in the middle of the dance. Returns what came, and what was told of the resume. */
-async function danceAndKill(source, isTime, heir = other, options = {}) {
-  let goOn;
-  const resumes = [];
-  return withServer([], (one) =>
-    withClient([one.address, heir], options, async (client) => {
-      const { skeleton } = (await client.info()).models[0];
-      const requests = source(skeleton, { goOn: new Promise((resolve) => (goOn = resolve)) });
-      const answers = await collect(client.streamDance(requests, { onResume: (resume) => resumes.push(resume) }), (_, all) => {
-        if (!goOn || !isTime(all)) return;
-        one.kill();
-        goOn();
-        goOn = undefined;
-      });
-      return { answers, resumes };
-    }),
-  );
-}
-
-const undisturbed = (source, more) =>
-  withClient(other, {}, async (client) => collect(client.streamDance(source((await client.info()).models[0].skeleton, more))));
 
 for (const frame_rate of [30, 50]) {
   test(`a dance goes on where its server is killed, bit for bit: ${frame_rate} frames a second`, async () => {

@@ -26,8 +26,9 @@ except ImportError:
 
 from choreo_client import ChoreoError, Client, choreography, pose
 from music import PCM, RATE, clicks
+from python_answers_test import AnswersTest  # noqa: F401  (its tests are run here)
 from python_check_test import CheckTest  # noqa: F401
-from python_client_test import ClientTest  # noqa: F401  (its tests are run here)
+from python_client_test import ClientTest  # noqa: F401
 from python_keys_test import KeysTest  # noqa: F401
 from python_package_test import PackageTest  # noqa: F401
 from servers import Server

@@ -4,7 +4,7 @@ import { answersOf } from './answers.js';
 import { asSent } from './as_sent.js';
 import { checkCall } from './call_options.js';
 import { cancelled, ChoreoError, unavailable } from './error.js';
-import { firstOutputFrame, requireSameFingerprint } from './header.js';
+import { requireSameFingerprint } from './header.js';
 import { Journal } from './journal.js';
 import { DeliveryFilter } from './delivery_filter.js';
 
@@ -136,9 +136,7 @@ class Progress {
   /** Prepares for another server. */
   restart() {
     this.#journal.refusedKeys.restart();
-    if (!this.#header) return;
-    const frame = Number(this.#continuation?.frame ?? this.#header.first_frame);
-    this.#filter.restart(frame, this.#journal.keysBefore(frame, this.#header.model_frame_rate));
+    this.#filter?.restart();
   }
 
   /** Returns the part of an answer for the caller, if any. `sent`: the number of requests sent to the server. */
@@ -179,7 +177,7 @@ class Progress {
     if (!this.#header) {
       this.#header = header;
       this.#fingerprint = header.fingerprint;
-      this.#filter = new DeliveryFilter(firstOutputFrame(header));
+      this.#filter = new DeliveryFilter(header);
       return answer;
     }
     const { frame_rate, skeleton } = this.#header;

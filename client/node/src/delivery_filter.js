@@ -1,34 +1,31 @@
 // Filters out the answers that a resumed dance repeats, so that the caller receives each once.
 import grpc from '@grpc/grpc-js';
 import { ChoreoError } from './error.js';
-import { placeOf } from './journal.js';
+import { firstOutputFrame } from './header.js';
 
 const perFrame = ['root_positions', 'rotations', 'contacts'];
 
 export class DeliveryFilter {
   #nextFrames = new Map(); // by candidate, at the output rate; a dance has one candidate
-  #firstFrame;
-  #rejected = []; // places of rejected keys, as delivered
-  #expected = []; // answers that the present server has yet to repeat
+  #header;
+  #rejections = 0; // delivered
+  #repeats = 0; // rejections that the present server has yet to repeat
   #told = new Set(); // delivered warnings, and keys that were reached
   #lastBeat = -1;
 
-  constructor(firstFrame) {
-    this.#firstFrame = firstFrame;
+  /** `header`: the first server's. */
+  constructor(header) {
+    this.#header = header;
   }
 
   /** The next frame to deliver, at the output rate. */
   nextFrame(candidate = 0) {
-    return this.#nextFrames.get(candidate) ?? this.#firstFrame;
+    return this.#nextFrames.get(candidate) ?? firstOutputFrame(this.#header);
   }
 
-  /**
-   * Prepares for another server, which continues from `frame` (at the model's rate) and receives all requests again. `late`: the keys before that
-   * frame, each listed as often as it was sent. The new server will report these as rejected or as reached.
-   */
-  restart(frame, late) {
-    // Keys without a frame are not in `late`.
-    this.#expected = [...late, ...this.#rejected.filter((place) => parseInt(place) >= frame || parseInt(place) < 0)];
+  /** Prepares for another server, which receives all requests again. */
+  restart() {
+    this.#repeats = this.#rejections;
   }
 
   /** Removes frames that were delivered already; undefined if none is left. */
@@ -53,10 +50,9 @@ export class DeliveryFilter {
   event(event) {
     switch (event.event) {
       case 'keyframe_rejected':
-        return this.#isNewRejection(placeOf(event.keyframe_rejected.id, event.frame));
+        return this.#isNewRejection(event);
       case 'keyframe_reached':
-        this.#takeExpected(placeOf(event.keyframe_reached.id, event.frame));
-        return this.#isNew(`reached ${placeOf(event.keyframe_reached.id, event.frame)}`);
+        return this.#isNew(`reached ${event.frame} ${event.keyframe_reached.id}`);
       case 'warning':
         return this.#isNew(`warning ${event.frame} ${event.warning.message}`);
       case 'beat':
@@ -72,15 +68,17 @@ export class DeliveryFilter {
     return true;
   }
 
-  #isNewRejection(place) {
-    if (this.#takeExpected(place)) return false;
-    this.#rejected.push(place);
+  /**
+   * Rejections depend on the order of the requests alone, so every server sends the same ones, in this order. Only of keys in frames that the dance
+   * had danced when it resumed the new server says more: the first one accepted them.
+   */
+  #isNewRejection({ frame, keyframe_rejected: { code } }) {
+    if (code === 'REJECTION_CODE_ALREADY_DANCED' && Number(frame) >= Number(this.#header.first_frame)) return false;
+    if (this.#repeats > 0) {
+      --this.#repeats;
+      return false;
+    }
+    ++this.#rejections;
     return true;
-  }
-
-  #takeExpected(place) {
-    const at = this.#expected.indexOf(place);
-    if (at >= 0) this.#expected.splice(at, 1);
-    return at >= 0;
   }
 }

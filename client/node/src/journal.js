@@ -2,7 +2,7 @@
 // Discards only music that is no longer needed.
 import { checked, requireKind, requireSendable } from './check.js';
 import { invalid } from './error.js';
-import { hasMoment, RefusedKeys, requireKey } from './refused_keys.js';
+import { RefusedKeys, requireKey } from './refused_keys.js';
 
 /** Kinds of requests of which a dance takes one. */
 const once = ['config', 'end_of_audio', 'keyframes_complete'];
@@ -132,39 +132,4 @@ export class Journal {
   #format() {
     return this.#requests[0]?.config?.audio_format;
   }
-
-  /** The keys that were before `frame` when sent, as `placeOf` writes them, in order. `rate`: the model's. */
-  keysBefore(frame, rate) {
-    const found = [];
-    const frames = new Map();
-    let previous = 0;
-    for (const request of this.#requests) {
-      const id = request?.keyframe?.id ?? request?.remove_keyframe?.id;
-      if (id === undefined) continue;
-      if (request.keyframe) {
-        const at = hasMoment(request.keyframe) ? frameOf(request.keyframe, previous, rate) : -1;
-        if (at < 0) continue; // it has no frame
-        previous = at;
-        if (!request.keyframe.pose) {
-          // A key without a pose does not move an existing key.
-          if (at < frame) found.push(placeOf(id, at));
-          if (!frames.has(id)) frames.set(id, at);
-          continue;
-        }
-        frames.set(id, at);
-      }
-      if (frames.get(id) < frame) found.push(placeOf(id, frames.get(id)));
-    }
-    return found;
-  }
-}
-
-function frameOf({ frame, time, interval_after_previous: interval }, previous, rate) {
-  if (frame !== undefined) return Number(frame);
-  return time !== undefined ? Math.round(time * rate) : previous + Number(interval ?? 0);
-}
-
-/** Writes a key's id, and its frame at the model's rate, as one string. */
-export function placeOf(id, frame) {
-  return `${frame} ${id}`;
 }

@@ -56,7 +56,7 @@ function kindOf(request) {
 }
 
 /** Whether a key has a moment. */
-export function hasMoment({ frame, time, interval_after_previous: interval }) {
+function hasMoment({ frame, time, interval_after_previous: interval }) {
   return (frame ?? time ?? interval) !== undefined;
 }
 

@@ -3,7 +3,7 @@ import { answersOf } from './answers.js';
 import { checkCall } from './call_options.js';
 import { checked, requireSendable } from './check.js';
 import { unavailable } from './error.js';
-import { firstOutputFrame, requireSameFingerprint } from './header.js';
+import { requireSameFingerprint } from './header.js';
 import { DeliveryFilter } from './delivery_filter.js';
 
 /** Yields the answers of GenerateTransition to the request `asked`. */
@@ -25,7 +25,7 @@ export async function* transition(replicas, asked, given) {
         requireSameFingerprint(begun.fingerprint, answer.header, server.address);
       } else if (answer.header) {
         begun = answer.header;
-        filter = new DeliveryFilter(firstOutputFrame(begun));
+        filter = new DeliveryFilter(begun);
         yield answer;
       } else if (answer.frames) {
         const frames = filter.frames(answer.frames);

@@ -139,9 +139,8 @@ class _Progress:
     def restart(self):
         """Prepares for another server."""
         self._journal.refused_keys.restart()
-        if self._header is not None:
-            frame = self._header.first_frame if self._continuation is None else self._continuation.frame
-            self._filter.restart(frame, self._journal.keys_before(frame, self._header.model_frame_rate))
+        if self._filter is not None:
+            self._filter.restart()
 
     def take(self, answer, address, sent):
         """Changes an answer to the part for the caller. Returns False if there is none. `sent`: the number of requests sent to the server."""

@@ -3,6 +3,7 @@
 import collections
 import math
 
+from . import choreography
 from ._errors import ChoreoError, wrong_field
 
 _PER_FRAME = ("root_positions", "rotations", "contacts")
@@ -24,8 +25,9 @@ def require_same_fingerprint(begun, header, address, remedy=""):
 class DeliveryFilter:
     def __init__(self, header):
         self._next_frames = collections.defaultdict(lambda: first_output_frame(header))  # by candidate; a dance has one candidate
-        self._rejected = []  # (id, frame) of rejected keys, as delivered
-        self._expected = []  # answers that the present server has yet to repeat
+        self._first_frame = header.first_frame  # at the model's rate
+        self._rejections = 0  # delivered
+        self._repeats = 0  # rejections that the present server has yet to repeat
         self._told = set()  # delivered warnings, and keys that were reached
         self._last_beat = -1.0
 
@@ -33,11 +35,9 @@ class DeliveryFilter:
         """The next frame to deliver, at the output rate."""
         return self._next_frames[candidate]
 
-    def restart(self, frame, late):
-        """Prepares for another server, which continues from `frame` (at the model's rate) and receives all requests again. `late`: the keys
-        before that frame, each listed as often as it was sent. The new server will report these as rejected or as reached."""
-        # Keys without a frame are not in `late`.
-        self._expected = late + [place for place in self._rejected if place[1] >= frame or place[1] < 0]
+    def restart(self):
+        """Prepares for another server, which receives all requests again."""
+        self._repeats = self._rejections
 
     def take_frames(self, frames):
         """Removes frames that were delivered already. Returns False if none is left."""
@@ -57,9 +57,8 @@ class DeliveryFilter:
         """Whether an event is new."""
         kind = event.WhichOneof("event")
         if kind == "keyframe_rejected":
-            return self._is_new_rejection((event.keyframe_rejected.id, event.frame))
+            return self._is_new_rejection(event)
         if kind == "keyframe_reached":
-            self._take_expected((event.keyframe_reached.id, event.frame))
             return self._is_new((kind, event.keyframe_reached.id, event.frame))
         if kind == "warning":
             return self._is_new((kind, event.warning.message, event.frame))
@@ -75,14 +74,13 @@ class DeliveryFilter:
         self._told.add(what)
         return True
 
-    def _is_new_rejection(self, place):
-        if self._take_expected(place):
+    def _is_new_rejection(self, event):
+        """Rejections depend on the order of the requests alone, so every server sends the same ones, in this order. Only of keys in frames that the
+        dance had danced when it resumed the new server says more: the first one accepted them."""
+        if event.keyframe_rejected.code == choreography.REJECTION_CODE_ALREADY_DANCED and event.frame >= self._first_frame:
             return False
-        self._rejected.append(place)
-        return True
-
-    def _take_expected(self, place):
-        if place not in self._expected:
+        if self._repeats > 0:
+            self._repeats -= 1
             return False
-        self._expected.remove(place)
+        self._rejections += 1
         return True

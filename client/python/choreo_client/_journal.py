@@ -2,7 +2,6 @@
 Discards only music that is no longer needed."""
 
 import collections.abc
-import math
 import re
 import threading
 
@@ -150,29 +149,6 @@ class Journal:
         audio_format = self._said[0].config.audio_format
         return _BYTES.get(audio_format.encoding, 0) * audio_format.channels
 
-    def keys_before(self, frame, rate):
-        """The keys that were before `frame` when sent: [(id, frame)], in order. `rate`: the model's."""
-        found, frames, previous = [], {}, 0
-        for request in list(self._said):
-            kind = request and request.WhichOneof("request")
-            if kind not in ("keyframe", "remove_keyframe"):
-                continue
-            key = getattr(request, kind)
-            if kind == "keyframe":
-                at = -1 if key.WhichOneof("when") is None else _frame_of(key, previous, rate)
-                if at < 0:
-                    continue  # it has no frame
-                previous = at
-                if not key.HasField("pose"):  # a key without a pose does not move an existing key
-                    if at < frame:
-                        found.append((key.id, at))
-                    frames.setdefault(key.id, at)
-                    continue
-                frames[key.id] = at
-            if frames.get(key.id, frame) < frame:
-                found.append((key.id, frames[key.id]))
-        return found
-
 
 def _value(message, path):
     """The value at a path of names and indices; None where there is none."""
@@ -182,10 +158,3 @@ def _value(message, path):
         except (AttributeError, IndexError, TypeError):
             return None
     return message
-
-
-def _frame_of(key, previous, rate):
-    when = key.WhichOneof("when")
-    if when == "frame":
-        return key.frame
-    return math.floor(key.time * rate + 0.5) if when == "time" else previous + key.interval_after_previous
