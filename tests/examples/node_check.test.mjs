@@ -52,6 +52,9 @@ test('a request that the API does not know is refused by its path', () =>
       [keyframe({ pose: { rotations: ['0'] } }), 'keyframe.pose.rotations[0]', "'0' is not a finite number"],
       [keyframe({ mask: { joints: ['1'] } }), 'keyframe.mask.joints[0]', "'1' is not a whole number"],
       [keyframe({ id: 5 }), 'keyframe.id', '5 is not a string'],
+      [keyframe({ id: 'a\ud800' }), 'keyframe.id', "'a\\ud800' has half a character, a surrogate without its pair"],
+      [[{ config: { style: '\udc83\ud83d' } }], 'config.style', / has half a character, /],
+      [keyframe({ pose: { rotations: [0, 0, 0, 1e300] } }), 'keyframe.pose.rotations[3]', '1e+300 is beyond the numbers of 32 bits, which end at 3.4e38'],
       [keyframe({ frame: 3 }), 'keyframe.frame', 'given beside time; there is one of frame, time, interval_after_previous'],
       [[{ config: {}, end_of_audio: {} }], 'end_of_audio', /^given beside config; there is one of config, audio, /],
       [[{ config: { allow_inexact_resume: 'no' } }], 'config.allow_inexact_resume', "'no' is not a boolean"],
@@ -267,6 +270,7 @@ test('a pose of joints that are not there, or of what is no rotation, is refused
   for (const [rotations, message] of [
     [{ leftShoulder: [0, 0, 1] }, 'rotations.leftShoulder: no joint of two; did you mean left_shoulder?'],
     [{ tail: [0, 0, 1] }, 'rotations.tail: no joint of two; there are pelvis, left_shoulder'],
+    [5, 'rotations: 5 is not {joint name: [x, y, z]}'],
     [{ pelvis: 1 }, 'rotations.pelvis: 1 is not [x, y, z], three finite numbers'],
     [{ pelvis: [1, 2] }, 'rotations.pelvis: [ 1, 2 ] is not [x, y, z], three finite numbers'],
     [{ pelvis: [0, NaN, 0] }, 'rotations.pelvis: [ 0, NaN, 0 ] is not [x, y, z], three finite numbers'],

@@ -88,6 +88,7 @@ test('what can be no key is refused by the names that the page knows', () =>
         [{ pose: 'kick', time: NaN }, 'time'],
         [{ pose: 'kick', time: -1 }, 'time'],
         [{ pose: 'kick', id: 'é'.repeat(150) }, 'id'],
+        [{ pose: 'kick', time: 8, id: 'half \ud83d' }, 'id'],
         [{ rotations: { head: [0, NaN, 0] } }, 'rotations.head'],
         [{ rotations: { head: [0, 7, 0] } }, 'rotations.head'],
         [{ rotations: { head: [0, 1, 0] }, hold: 2 }, 'hold'],

@@ -4,6 +4,7 @@ what they take. python_test.py runs it; $CHOREO_SERVER names a choreod."""
 import array
 import asyncio
 import concurrent.futures
+import fractions
 import functools
 import inspect
 import json
@@ -65,6 +66,16 @@ class CheckTest(unittest.TestCase):
             (keyframe(pose={"rotations": [[0, 0, 0]]}), "keyframe.pose.rotations[0]", r"\[0, 0, 0\] is not a number; rotations is one flat list: give "),
             (keyframe(mask={"joints": ["head"]}), "keyframe.mask.joints[0]", "'head' is not a whole number$"),
             (keyframe(id=5), "keyframe.id", "5 is not a str$"),
+            (keyframe(id="a\ud800"), "keyframe.id", r"'a\\ud800' has half a character, a surrogate without its pair$"),
+            ([{"config": {"style": "\udc83\ud83d"}}], "config.style", ".* has half a character, "),
+            (keyframe(hands="fist\ud83d"), "keyframe.hands", ".* is not a HandPose; did you mean HAND_POSE_FIST"),
+            (keyframe(hands=[]), "keyframe.hands", r"\[\] is not a HandPose; there are "),
+            (keyframe(hands=10**400), "keyframe.hands", "1000000000.* is not a HandPose; there are "),
+            (keyframe(hit=10**400), "keyframe.hit", "1000000000.*0000000000 is not a finite number$"),
+            (keyframe(hit=fractions.Fraction(10**400)), "keyframe.hit", ".* is not a finite number$"),
+            (keyframe(pose={"rotations": [0, 0, 0, 1e300]}), "keyframe.pose.rotations[3]", r"1e\+300 is beyond the numbers of 32 bits, which end at 3.4e38$"),
+            ([{"config": {"seed": 10**400}}], "config.seed", "1000000000.* is more than 18446744073709551615$"),
+            ([{"config": {"seed": "1" * 5000}}], "config.seed", "'1111.* is not a whole number$"),
             (keyframe(frame=3), "keyframe.frame", "given beside time; there is one of frame, time, interval_after_previous$"),
             ([{"config": {"allow_inexact_resume": "no"}}], "config.allow_inexact_resume", "'no' is not a bool$"),
             *(([{"config": {"seed": seed}}], "config.seed", ".* is not a whole number$") for seed in (1.5, "7x")),
@@ -207,6 +218,9 @@ print(api_implementation.Type())
         for rotations, message in (
             ({"leftShoulder": [0, 0, 1]}, r"rotations\.leftShoulder: no joint of two; did you mean left_shoulder\?$"),
             ({"tail": [0, 0, 1]}, r"rotations\.tail: no joint of two; there are pelvis, left_shoulder$"),
+            (5, r"rotations: 5 is not \{joint name: \[x, y, z\]\}$"),
+            ({"pelvis": [0, 10**400, 0]}, r"rotations\.pelvis: \[0, 1000.* is not"),
+            ({"pelvis": [0, 1e300, 0]}, r"rotations\.pelvis: \[0, 1e\+300, 0\] is not"),
             ({"pelvis": 1}, r"rotations\.pelvis: 1 is not \[x, y, z\], three finite numbers$"),
             ({"pelvis": [1, 2]}, r"rotations\.pelvis: \[1, 2\] is not"),
             ({"pelvis": [0, float("nan"), 0]}, r"rotations\.pelvis: \[0, nan, 0\] is not"),
@@ -233,8 +247,10 @@ print(api_implementation.Type())
         for timeout in ("soon", float("nan")):
             for call in (self.client.info, functools.partial(self.client.stream_dance, [CONFIG], None)):
                 self.assert_refused("timeout: .* is not a number of seconds$", call, timeout)
-        for timeout in (1e30, float("inf")):
+        for timeout in (1e30, float("inf"), 10**400):
             self.assertTrue(self.client.info(timeout).models)
+        self.assert_refused("retry_s: 1000.* is not a finite number >= 0$", lambda: Client("127.0.0.1:1", retry_s=10**400))
+        Client("127.0.0.1:1", connect_timeout_s=1e300).close()
         self.assert_refused("addresses: None is neither HOST:PORT nor", Client, None)
 
     def test_the_page_s_program_for_asyncio_dances_and_can_be_cancelled(self):

@@ -1,7 +1,7 @@
 // Reads what a page sends during a dance as the dance's requests. Refuses, by the page's own names, what can be no key.
 import { randomUUID } from 'node:crypto';
 import { invalid } from '../src/error.js';
-import { isObject, number } from '../src/fields.js';
+import { isObject, number, requireWellFormed } from '../src/fields.js';
 import { readAndWarn } from '../src/keys.js';
 import { pose } from '../src/pose.js';
 import { hint, quoted } from '../src/words.js';
@@ -31,6 +31,7 @@ function requireId(id) {
   const bytes = typeof id === 'string' ? Buffer.byteLength(id) : undefined;
   if (bytes === undefined) throw invalid('id', `${quoted(id)} is not a text`);
   if (!(bytes >= 1 && bytes <= mostBytesOfId)) throw invalid('id', `has ${bytes} bytes, not 1 to ${mostBytesOfId}`);
+  requireWellFormed(id, 'id');
 }
 
 function requireTime(time) {

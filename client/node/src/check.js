@@ -3,6 +3,7 @@ import { types } from 'node:util';
 import protobuf from 'protobufjs';
 import { jointAt } from './as_sent.js';
 import { invalid } from './error.js';
+import { requireWellFormed } from './fields.js';
 import { hint, quoted } from './words.js';
 import { api } from './protos.js';
 
@@ -17,6 +18,8 @@ const ranges = {
 /** The size limit of a message in bytes, as in Limits.max_message_bytes, and the bytes around the music in its message. */
 const mostBytes = 16 << 20;
 const aroundMusic = 32;
+
+const largestFloat = 3.4028235e38;
 
 /** The typed array whose bytes are in this encoding. */
 const samples = { AUDIO_ENCODING_PCM_F32LE: 'Float32Array', AUDIO_ENCODING_PCM_S16LE: 'Int16Array' };
@@ -87,9 +90,10 @@ function single(field, value, path, encoding) {
   if (resolvedType) return message(resolvedType, value, path, path, encoding);
   if (type === 'bytes') return bytes(value, path, encoding);
   if (type in ranges) return whole(type, value, path);
-  if (type === 'double' || type === 'float') return real(value, path);
+  if (type === 'double' || type === 'float') return real(type, value, path);
   const wanted = type === 'bool' ? 'boolean' : type;
   if (typeof value !== wanted) throw invalid(path, `${quoted(value)} is not a ${wanted}`);
+  if (type === 'string') requireWellFormed(value, path);
   return value;
 }
 
@@ -98,8 +102,9 @@ function label({ name, values }, value, path) {
   throw invalid(path, `${quoted(value)} is not a ${name}; ${hint(String(value), Object.keys(values))}`);
 }
 
-function real(value, path) {
+function real(type, value, path) {
   if (!Number.isFinite(value)) throw invalid(path, `${quoted(value)} is not a finite number`);
+  if (type === 'float' && Math.abs(value) > largestFloat) throw invalid(path, `${value} is beyond the numbers of 32 bits, which end at 3.4e38`);
   return value;
 }
 

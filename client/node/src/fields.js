@@ -1,12 +1,17 @@
 // Checks and reads numbers and members of callers' arguments.
 import { invalid } from './error.js';
-import { quoted } from './words.js';
+import { hasHalf, quoted } from './words.js';
 
 export const isObject = (value) => typeof value === 'object' && value !== null && !Array.isArray(value);
 
 /** Throws unless the argument is a model's skeleton. */
 export function requireSkeleton(skeleton) {
   if (!skeleton?.joint_names) throw invalid('skeleton', `${quoted(skeleton)} is none, as in (await client.info()).models[0].skeleton`);
+}
+
+/** Throws for a text that no message can hold. */
+export function requireWellFormed(text, field) {
+  if (hasHalf(text)) throw invalid(field, `${quoted(text)} has half a character, a surrogate without its pair`);
 }
 
 export function number(value, field) {

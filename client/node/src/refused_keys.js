@@ -2,6 +2,7 @@
 // server is sent a blank: a key without a pose at the same moment. The server rejects the blank in order, also after a resumption; the caller
 // receives the reason that the check found.
 import { checked } from './check.js';
+import { wellFormed } from './words.js';
 
 const nowhere = { frame: -1 };
 const kinds = { keyframe: 'Keyframe', remove_keyframe: 'RemoveKeyframe' };
@@ -32,7 +33,7 @@ export class RefusedKeys {
     }
     const [{ field, description: reason }] = error.violations;
     this.#bodiless.push({ field, reason });
-    return { keyframe: { id: typeof id === 'string' ? id : '', ...momentOf(key) } };
+    return { keyframe: { id: typeof id === 'string' ? wellFormed(id) : '', ...momentOf(key) } };
   }
 
   /** Translates an event for the caller. */

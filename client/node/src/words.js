@@ -4,6 +4,12 @@ import { inspect } from 'node:util';
 /** Formats a value briefly. */
 export const quoted = (value) => inspect(value, { depth: 0, breakLength: Infinity, maxArrayLength: 3, maxStringLength: 40 });
 
+/** Whether a text has half a character, a surrogate without its pair, which UTF-8 and so no message can hold. */
+export const hasHalf = (text) => /\p{Surrogate}/u.test(text);
+
+/** A text with U+FFFD, as browsers write it, in place of half characters. */
+export const wellFormed = (text) => text.replace(/\p{Surrogate}/gu, '\ufffd');
+
 const plain = (name) => name.toLowerCase().replace(/[^a-z0-9]/g, '');
 
 const sorted = (name) => [...name].sort().join('');

@@ -2,8 +2,6 @@
 ChoreoError that names the field's path, the value and what is allowed."""
 
 import collections.abc
-import math
-import numbers
 import operator
 import re
 
@@ -13,7 +11,8 @@ from google.protobuf.message import Message
 from . import choreography
 from ._as_sent import joint_at
 from ._errors import ChoreoError, invalid
-from ._words import hint, quoted
+from ._numbers import LARGEST_FLOAT32, finite
+from ._words import has_half, hint, quoted, well_formed
 
 _RANGES = {
     Field.CPPTYPE_INT32: (-(2**31), 2**31 - 1),
@@ -67,10 +66,11 @@ def _message(descriptor, value, path, name, encoding):
         raise invalid(path or name, f"{given} is not a {descriptor.name}, {{{', '.join(names)}}}")
     fields, chosen = {}, {}
     for key, one in value.items():
-        at = f"{path}.{key}" if path else str(key)
-        field = descriptor.fields_by_name.get(key) if isinstance(key, str) else None
+        name = well_formed(key) if isinstance(key, str) else quoted(key)
+        at = f"{path}.{name}" if path else name
+        field = descriptor.fields_by_name.get(name) if isinstance(key, str) else None
         if field is None:
-            raise invalid(at, f"no field of {descriptor.name}; {hint(key, names)}")
+            raise invalid(at, f"no field of {descriptor.name}; {hint(name, names)}")
         if one is None:
             continue
         oneof = field.containing_oneof
@@ -109,20 +109,32 @@ def _single(field, value, path, encoding):
     if field.cpp_type in _RANGES:
         return _whole(value, path, *_RANGES[field.cpp_type])
     if field.type == Field.TYPE_STRING and isinstance(value, str):
-        return value
+        return _text(value, path)
     if field.type == Field.TYPE_BOOL and isinstance(value, int) and value in (0, 1):
         return bool(value)
     if field.type in (Field.TYPE_STRING, Field.TYPE_BOOL):
         raise invalid(path, f"{quoted(value)} is not a {'str' if field.type == Field.TYPE_STRING else 'bool'}")
-    if not isinstance(value, numbers.Real) or isinstance(value, bool) or not math.isfinite(value):
+    number = finite(value)
+    if number is None:
         raise invalid(path, f"{quoted(value)} is not a finite number")
-    return float(value)
+    if field.type == Field.TYPE_FLOAT and abs(number) > LARGEST_FLOAT32:
+        raise invalid(path, f"{quoted(value)} is beyond the numbers of 32 bits, which end at 3.4e38")
+    return number
+
+
+def _text(value, path):
+    if has_half(value):
+        raise invalid(path, f"{quoted(value)} has half a character, a surrogate without its pair")
+    return value
 
 
 def _label(kind, value, path):
-    known = value in kind.values_by_name if isinstance(value, str) else value in kind.values_by_number
+    try:
+        known = well_formed(value) in kind.values_by_name if isinstance(value, str) else value in kind.values_by_number
+    except TypeError:  # a list, say
+        known = False
     if not known:
-        raise invalid(path, f"{quoted(value)} is not a {kind.name}; {hint(value, list(kind.values_by_name))}")
+        raise invalid(path, f"{quoted(value)} is not a {kind.name}; {hint(value if isinstance(value, str) else '', list(kind.values_by_name))}")
     return value
 
 
@@ -131,7 +143,7 @@ def _whole(value, path, least, most):
     is_text = most > 2**32 and isinstance(value, str) and re.fullmatch(r"-?\d+", value)
     try:
         number = operator.index(int(value) if is_text else value)
-    except TypeError:
+    except (TypeError, ValueError):  # or a text of thousands of digits
         number = None
     if number is None or isinstance(value, bool):
         raise invalid(path, f"{quoted(value)} is not a whole number")

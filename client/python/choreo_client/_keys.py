@@ -12,6 +12,7 @@ import warnings
 from . import choreography
 from ._errors import invalid
 from ._pose import WITHOUT_PLACE, require_skeleton
+from ._numbers import finite
 from ._poses import find
 from ._words import hint, quoted
 
@@ -212,7 +213,7 @@ def _held(key, hold, starts, field):
 
 
 def _number(value, field):
-    if isinstance(value, bool) or not isinstance(value, (int, float)) or not math.isfinite(value):
+    if finite(value) is None:
         counts = "; counts need a song's beats: say seconds" if isinstance(value, str) and value.endswith("c") else ""
         raise invalid(field, f"{quoted(value)} is not a number{counts}")
     return value

@@ -4,7 +4,6 @@ import contextlib
 import dataclasses
 import ipaddress
 import json
-import math
 import numbers
 import os
 import re
@@ -15,10 +14,12 @@ import grpc
 
 from ._errors import invalid
 from ._pem import content_of, file_of, name_of, read
-from ._words import hint
+from ._numbers import finite
+from ._words import hint, quoted
 
 LEAST_SILENCE = 2  # seconds
 MOST_PORT = 65535
+_LONGEST = 1e6  # seconds: gRPC counts milliseconds in 32 bits
 MOST_TOKEN_BYTES = 4096  # gRPC's headers have 8 KiB in all
 
 Path = typing.Union[str, "os.PathLike[str]"]
@@ -59,8 +60,8 @@ class Options:
         self._check_kinds()
         for name in ("connect_timeout_s", "silence_s", "retry_s", "first_backoff_s"):
             value = getattr(self, name)
-            if not 0 <= value < math.inf:
-                raise invalid(name, f"{value} is not a finite number >= 0")
+            if finite(value) is None or value < 0:
+                raise invalid(name, f"{quoted(value)} is not a finite number >= 0")
         if 0 < self.silence_s < LEAST_SILENCE:
             raise invalid("silence_s", f"{self.silence_s} s is neither 0 nor at least {LEAST_SILENCE} s")
         if not addresses:
@@ -128,7 +129,7 @@ class Options:
             "grpc.service_config": json.dumps(service),
             "grpc.max_receive_message_length": -1,
             # Despite its name, gRPC also uses this as the time limit for one attempt to connect.
-            "grpc.min_reconnect_backoff_ms": round(1000 * self.connect_timeout_s),
+            "grpc.min_reconnect_backoff_ms": round(1000 * min(self.connect_timeout_s, _LONGEST)),
             "grpc.initial_reconnect_backoff_ms": 100,
             "grpc.max_reconnect_backoff_ms": 1000,
         }
@@ -136,7 +137,7 @@ class Options:
             options["grpc.ssl_target_name_override"] = self.server_name
         if self.silence_s > 0:
             # Half of the time passes before a ping, the other half is for its answer.
-            half = round(500 * min(self.silence_s, 1e6))
+            half = round(500 * min(self.silence_s, _LONGEST))
             options |= {"grpc.keepalive_time_ms": half, "grpc.keepalive_timeout_ms": half, "grpc.http2.max_pings_without_data": 0}
         return list(options.items())
 

@@ -1,11 +1,11 @@
 from __future__ import annotations
 
-import math
-import numbers
+import collections.abc
 import typing
 
 from . import choreography
 from ._errors import invalid
+from ._numbers import LARGEST_FLOAT32, finite
 from ._words import hint, quoted
 
 
@@ -20,7 +20,9 @@ def pose(
     """Makes a pose: the rest pose of `skeleton` with these `rotations`, {joint name: [x, y, z] in radians}. It is at `place`, [x, z] in metres, or,
     without one, wherever the dancer is. Raises ChoreoError for joints that the skeleton lacks, and for invalid rotations."""
     require_skeleton(skeleton)
-    names, rotations = list(skeleton.joint_names), rotations or {}
+    names, rotations = list(skeleton.joint_names), {} if rotations is None else rotations
+    if not isinstance(rotations, collections.abc.Mapping):
+        raise invalid("rotations", f"{quoted(rotations)} is not {{joint name: [x, y, z]}}")
     for joint, turn in rotations.items():
         if joint not in names:
             raise invalid(f"rotations.{joint}", f"no joint of {skeleton.name or 'the skeleton'}; {hint(joint, names)}")
@@ -39,4 +41,4 @@ def require_skeleton(skeleton):
 
 
 def _is_vector(value, size):
-    return hasattr(value, "__len__") and len(value) == size and all(isinstance(one, numbers.Real) and math.isfinite(one) for one in value)
+    return hasattr(value, "__len__") and len(value) == size and all(abs(finite(one) or 0) <= LARGEST_FLOAT32 and finite(one) is not None for one in value)

@@ -7,6 +7,7 @@ import collections.abc
 from . import choreography
 from ._check import checked
 from ._errors import ChoreoError
+from ._words import well_formed
 
 _NOWHERE = -1
 _KINDS = {"keyframe": choreography.Keyframe, "remove_keyframe": choreography.RemoveKeyframe}
@@ -75,5 +76,5 @@ def _without_pose(key):
         blank = choreography.Keyframe()
     if blank.WhichOneof("when") is None:
         blank.frame = _NOWHERE
-    blank.id = name if isinstance(name, str) else ""
+    blank.id = well_formed(name) if isinstance(name, str) else ""
     return blank

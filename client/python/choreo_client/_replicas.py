@@ -1,7 +1,6 @@
 """The servers of a client, of which one is in use, and the retries of calls."""
 
 import contextlib
-import math
 import numbers
 import random
 import threading
@@ -105,10 +104,10 @@ class Cancellation:
     """Cancels a call, from any thread, during any of its attempts. Also has the call's deadline."""
 
     def __init__(self, timeout=None):
-        if timeout is not None and (not isinstance(timeout, numbers.Real) or math.isnan(timeout)):
+        if timeout is not None and (not isinstance(timeout, numbers.Real) or timeout != timeout):
             raise invalid("timeout", f"{quoted(timeout)} is not a number of seconds")
         for_ever = timeout is None or timeout > threading.TIMEOUT_MAX  # gRPC would misread a longer timeout as past
-        self.deadline = None if for_ever else time.monotonic() + timeout
+        self.deadline = None if for_ever else time.monotonic() + max(0, timeout)
         self._asked = threading.Event()
         self._lock = threading.Lock()
         self._call = None

@@ -5,9 +5,30 @@ import re
 import reprlib
 
 
+_MOST_BITS = 4096  # of an integer to show; Python writes none of more than 4300 digits
+
+
+class _Brief(reprlib.Repr):
+    def repr_int(self, x, level):
+        return super().repr_int(x, level) if x.bit_length() <= _MOST_BITS else f"an integer of {x.bit_length()} bits"
+
+
+_brief = _Brief()
+
+
 def quoted(value):
     """Formats a value briefly."""
-    return reprlib.repr(value)
+    return _brief.repr(value)
+
+
+def has_half(text):
+    """Whether a text has half a character, a surrogate without its pair, which UTF-8 and so no message can hold."""
+    return re.search("[\ud800-\udfff]", text) is not None
+
+
+def well_formed(text):
+    """Returns a text with U+FFFD, as browsers write it, in place of half characters."""
+    return re.sub("[\ud800-\udfff]", "\ufffd", text)
 
 
 def _plain(name):
