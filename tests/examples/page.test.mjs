@@ -261,6 +261,12 @@ test('what a page may not have is refused, with a status', () =>
       assert.deepEqual(await refused(new Promise((_, onEnd) => connectDance(`${url}?stranger`, { onEnd }))), [401, undefined, 'log in first']);
       assert.deepEqual(await status(`${url}/nobody/keys`, { method: 'POST', body: '{}' }), [404, 'nobody dances nobody']);
       assert.deepEqual(await status(url.replace('/dance', '/dances')), [404, '']);
+      assert.deepEqual(await status(`${url}/nobody/keyes`, { method: 'POST' }), [404, 'nothing is at /dance/nobody/keyes']);
+      assert.deepEqual(await status(`${url}/nobody`), [404, 'nothing is at /dance/nobody']);
+      for (const [path, method, allowed] of [['/nobody/keys', 'PUT', 'POST'], ['/nobody/keys/a', 'GET', 'DELETE'], ['', 'DELETE', 'GET'], ['/skeleton', 'POST', 'GET']]) {
+        const answer = await fetch(url + path, { method });
+        assert.deepEqual([answer.status, answer.headers.get('Allow'), await answer.text()], [405, allowed, `/dance${path} takes ${allowed}, not ${method}\n`]);
+      }
       assert.deepEqual(await status(`${url}/%zz/keys`), [400, 'URI malformed']);
       const joints = JSON.parse((await status(`${url}/skeleton`))[1]).joint_names;
       assert.equal(joints.length, 24);

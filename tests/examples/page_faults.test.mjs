@@ -102,6 +102,28 @@ test('what can be no key is refused by the names that the page knows', () =>
     },
   ));
 
+test('the end and keys that are not there are told in the terms of the page', () =>
+  withBackEnd(
+    () => ({ ...order(), seconds: 20, speed: 1 }),
+    async ({ url }) => {
+      const heard = [];
+      const page = connectDance(url, { onKey: (news) => heard.push(news) });
+      const { id } = await page.begun;
+      const post = async (key) => {
+        const answer = await fetch(`${url}/${id}/keys`, { method: 'POST', body: JSON.stringify({ pose: 'kick', ...key }) });
+        return [answer.status, (await answer.text()).trim()];
+      };
+      const near = 'time: 19.99 s is nearest to the end of the dance, 20 s; its last frame is at 19.967 s';
+      assert.deepEqual(await post({ time: 19.99 }), [400, near]);
+      assert.deepEqual(await post({ frame: 600 }), [400, 'frame: 600 is not before the end of the dance, 600']);
+      assert.equal((await post({ time: 19.967 }))[0], 202);
+      await page.removeKey('nobody');
+      while (heard.length === 0) await sleep(20);
+      assert.deepEqual(heard, [{ id: 'nobody', refused: 'there is no key "nobody"' }]);
+      page.close();
+    },
+  ));
+
 test('keys without an id get one each', () =>
   withBackEnd(
     () => ({ ...order(), seconds: 6, speed: 1 }),

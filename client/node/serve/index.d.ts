@@ -12,7 +12,7 @@ export interface DanceOrder {
    */
   music?: Uint8Array | ArrayBuffer | Iterable<StreamDanceRequest> | AsyncIterable<StreamDanceRequest>;
   /** Seed, model, style and the like. frames, encoding, generate_until and reject_invalid_keys are refused: serveDance() sets them. */
-  config?: DanceConfig;
+  config?: DanceConfig & { frames?: undefined; encoding?: undefined; generate_until?: undefined; reject_invalid_keys?: undefined };
   /** Said before the dance begins: the keys of readKeys(), controls. */
   keys?: StreamDanceRequest[];
   /** Times as fast as time, until the page tells where it plays, which follow() does; default 1. */
@@ -41,7 +41,7 @@ export interface ServeOptions {
 
 export interface DanceHandler {
   /**
-   * Answers requests below `path`; false, with the response untouched, for all others. It never rejects: what it refuses has a status, its words as
+   * Answers requests below `path`, with 404 and 405 for what is not there; false, with the response untouched, for all others. It never rejects: what it refuses has a status, its words as
    * text, and the header Choreo-Code where gRPC has a code for it. A page hears gRPC's code and the words where they name a field of the dance or of
    * its request, UNAVAILABLE or RESOURCE_EXHAUSTED where no server is free, and INTERNAL for all else, which onFailed hears in full. A body that a
    * framework has parsed is taken from request.body. Who may ask is for you to say, before this is called.

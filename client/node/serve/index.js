@@ -10,6 +10,9 @@ const mostRead = 16 << 20; // of a longer one, so that the connection serves the
 const untilBack = 0.5; // seconds until a browser reconnects
 const silence = 5; // seconds between signs of life, by which both sides notice a lost connection
 
+/** The method of each place below the path. */
+const served = { '': 'GET', skeleton: 'GET', ':id/keys': 'POST', ':id/clock': 'POST', ':id/keys/:key': 'DELETE' };
+
 /** See index.d.ts. */
 export function serveDance(client, begin, given = {}) {
   const server = new DanceServer(client, begin, checkServe(client, begin, given));
@@ -39,7 +42,7 @@ class DanceServer {
     const { path } = this.#options;
     if (url.pathname !== path && !url.pathname.startsWith(`${path}/`)) return false;
     try {
-      return await this.#route(url, request, response);
+      await this.#route(url, request, response);
     } catch (error) {
       const { status, message, code, retryAfter } = this.#told(error, (refusal) => refusal.status >= 500);
       if (response.headersSent) response.destroy();
@@ -47,20 +50,23 @@ class DanceServer {
         const named = { ...(/^[A-Z_]+$/.test(code) && { 'Choreo-Code': code }), ...(retryAfter > 0 && { 'Retry-After': Math.ceil(retryAfter) }) };
         response.writeHead(status, { 'Content-Type': 'text/plain; charset=utf-8', ...named }).end(`${message}\n`);
       }
-      return true;
     }
+    return true;
   }
 
   async #route(url, request, response) {
     const [id, keys, key, ...more] = url.pathname.slice(this.#options.path.length + 1).split('/').map(decodeURIComponent);
-    const asked = `${request.method} ${[id && ':id', keys, key && ':key', ...more].filter(Boolean).join('/')}`;
-    if (asked === 'GET ') await this.#watch(url, request, response);
-    else if (asked === 'GET :id' && id === 'skeleton') await this.#tellSkeleton(response);
-    else if (asked === 'POST :id/keys') await this.#sayKey(id, request, response);
-    else if (asked === 'POST :id/clock') await this.#hearClock(id, request, response);
-    else if (asked === 'DELETE :id/keys/:key') this.#removeKey(id, response, key);
-    else return false;
-    return true;
+    const place = [id && (id === 'skeleton' ? id : ':id'), keys, key && ':key', ...more].filter(Boolean).join('/');
+    if (!Object.hasOwn(served, place)) throw new Refusal(404, `nothing is at ${url.pathname}`);
+    if (request.method !== served[place]) {
+      response.setHeader('Allow', served[place]);
+      throw new Refusal(405, `${url.pathname} takes ${served[place]}, not ${request.method}`);
+    }
+    if (place === '') await this.#watch(url, request, response);
+    else if (place === 'skeleton') await this.#tellSkeleton(response);
+    else if (place === ':id/keys') await this.#sayKey(id, request, response);
+    else if (place === ':id/clock') await this.#hearClock(id, request, response);
+    else this.#removeKey(id, response, key);
   }
 
   async #tellSkeleton(response) {

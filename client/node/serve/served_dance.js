@@ -52,10 +52,20 @@ export class ServedDance {
 
   say(requests) {
     if (this.#edits.length + requests.length > mostWaiting) throw new Refusal(429, 'too many keys wait');
-    const { time } = requests[0].keyframe ?? {};
-    const { seconds } = this.#order;
-    if (time >= seconds) throw invalid('time', `${time} s is not before the end of the dance, ${seconds} s`);
+    this.#requireInside(requests[0].keyframe ?? {});
     this.#edits.push(...requests);
+  }
+
+  /** Throws for a key that is not before the end. A time is that of the nearest frame. */
+  #requireInside({ time, frame }) {
+    const { seconds } = this.#order;
+    const rate = this.model.model_frame_rate;
+    const end = Math.round(seconds * rate);
+    if (frame >= end) throw invalid('frame', `${frame} is not before the end of the dance, ${end}`);
+    if (time >= seconds) throw invalid('time', `${time} s is not before the end of the dance, ${seconds} s`);
+    if (Math.round(time * rate) >= end) {
+      throw invalid('time', `${time} s is nearest to the end of the dance, ${seconds} s; its last frame is at ${Math.round((1000 * (end - 1)) / rate) / 1000} s`);
+    }
   }
 
   /** Hears where its page plays, {time, paused}. */
@@ -135,8 +145,9 @@ export class ServedDance {
   /** The reason for a page, which counts in seconds. */
   #whyRefused({ code, field, reason, earliest_frame }) {
     const isLate = code === 'REJECTION_CODE_TOO_LATE' || code === 'REJECTION_CODE_FROZEN';
+    if (Number(earliest_frame) < 0 && (isLate || /^(remove_)?keyframe$/.test(field))) return 'too late: all of the dance is settled';
     if (isLate) return `too late: all before ${Math.ceil((100 * Number(earliest_frame)) / this.model.model_frame_rate) / 100} s is settled`;
-    return field ? `${this.#asOwn(field)}: ${reason}` : reason;
+    return field && !field.startsWith('remove_keyframe') ? `${this.#asOwn(field)}: ${reason}` : reason;
   }
 
   /** The field of a key as the page names it. */
