@@ -15,8 +15,8 @@ export interface DanceHeader {
  * standing; 'here' is where she is when the key arrives.
  */
 export type KeyPose =
-  | { pose: string; place?: [number, number] | 'here'; facing?: number; hold?: number; hit?: number }
-  | { rotations: Record<string, [number, number, number]> };
+  | { pose: string; rotations?: undefined; place?: [number, number] | 'here'; facing?: number; hold?: number; hit?: number }
+  | { rotations: Record<string, [number, number, number]>; pose?: undefined };
 
 /** A key was reached at `time`, or is not danced for the reason `refused`. */
 export interface KeyNews {

@@ -3,6 +3,8 @@
 
 const member = /(?: {2}\/\*\*\n(?<said>(?: {3}\*.*\n)*?) {3}\*\/\n)? {2}'(?<field>\w+)'\??: (?<kind>.*);\n/g;
 const needed = /\bRequired[.;]/;
+/** Messages all of whose fields are needed: proto3 has no way to say so, and takes an axis that is left out as 0. */
+const whole = ['Vector3'];
 
 /**
  * The declarations `text` of the message `type`, where oneofs are unions. Those that come narrow by the oneof's name or by what is there. Those that
@@ -19,7 +21,7 @@ export function withUnions(text, type) {
 function declared(name, members, oneofs) {
   const comes = name.endsWith('__Output');
   const isCommon = ({ field }) => !oneofs.some((oneof) => oneof.name === field || oneof.oneof.includes(field));
-  const common = members.filter(isCommon).map((one) => (comes ? one.whole : asNeeded(one)));
+  const common = members.filter(isCommon).map((one) => (comes ? one.whole : whole.includes(name) ? certain(one.whole, one.kind, one.field) : asNeeded(one)));
   if (oneofs.length === 0) return `export interface ${name} {\n${common.join('').replace(/^ {2}'(\w+)'/gm, '  $1')}}`;
   if (!comes && oneofs.length === 1) return alternatives(name, members, common, oneofs[0]);
   return `export type ${name} = {\n${common.join('')}}${oneofs.map((oneof) => choice(oneof, members, comes)).join('')};`;

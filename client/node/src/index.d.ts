@@ -31,7 +31,8 @@ export type Exactly<T, S> = T extends Plain
 export interface OneRequest extends Fields<StreamDanceRequest> {}
 type Fields<S> = { [K in Known<S>]?: Of<S, K> | null };
 /** No constraint if the compiler could not infer `T`: it then reports the mismatch with OneRequest. */
-type Only<T> = OneRequest extends T ? unknown : Exactly<T, StreamDanceRequest>;
+type Only<T> = [Empty<T>] extends [never] ? (OneRequest extends T ? unknown : Exactly<T, StreamDanceRequest>) : 'a request has one field';
+type Empty<T> = T extends unknown ? ([Used<T>] extends [never] ? T : never) : never;
 
 /** Credentials, timeouts and retries of a client. */
 export interface ClientOptions {
@@ -47,7 +48,7 @@ export interface ClientOptions {
   token?: string;
   /** A file with the token, instead of `token`. It is read again for each call, so that the token can be renewed. */
   tokenFile?: string;
-  /** The time limit for one attempt to connect to one address, seconds. Default 5. */
+  /** The time limit for one attempt to connect to one address, seconds, above 0. Default 5. */
   connectTimeout?: number;
   /** Seconds after which a server that sends nothing, not even answers to pings, counts as lost. At least 2; 0: never. Default 5. */
   silence?: number;

@@ -55,6 +55,13 @@ list.push({ config: {}, end_of_audio: {} });
 // @ts-expect-error: nothing
 list.push({});
 // @ts-expect-error: as above
+client.streamDance([{}]);
+async function* nothing() { yield { config: {} }; yield {}; }
+// @ts-expect-error: as above
+client.streamDance(nothing());
+// @ts-expect-error: how high, and where to?
+client.streamDance([{ keyframe: { id: 'a', time: 2, pose: { root_position: { x: 1 }, rotations: [] } } }]);
+// @ts-expect-error: as above
 list.push({ remove_keyframe: {} });
 // @ts-expect-error: as above
 list.push({ config: { allow_inexact_resume: 'no' } });

@@ -7,5 +7,9 @@ serveDance(client, async (url, request) => ({ seconds: 9, music: new Uint8Array(
 serveDance(client, () => ({ music: new Uint8Array(9) }));
 const dance = connectDance('/dance', { onKey: ({ id, refused }) => console.log(id, refused) });
 const told: Promise<{ id: string; time: number }> = dance.setKey({ pose: 'kick' });
+// @ts-expect-error: `seconds` says it
+serveDance(client, () => ({ seconds: 9, config: { frames: 3 } }));
+// @ts-expect-error: one
+dance.setKey({ pose: 'kick', rotations: { head: [0, 0, 0] } });
 // @ts-expect-error: no pose
 dance.setKey({ id: 'a', time: 2 });
