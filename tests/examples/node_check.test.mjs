@@ -68,6 +68,7 @@ test('a request that the API does not know is refused by its path', () =>
       [[config, undefined], 'requests[1]', /^undefined is not a StreamDanceRequest, {config, audio, /],
       [[config, [config]], 'requests[1]', /is not a StreamDanceRequest/],
       [undefined, 'requests', 'undefined is not an iterable of messages'],
+      [null, 'requests', 'null is not an iterable of messages'],
     ]) {
       await assert.rejects(collect(client.streamDance(requests)), (error) => {
         assert.ok(error instanceof ChoreoError, error);
@@ -78,7 +79,7 @@ test('a request that the API does not know is refused by its path', () =>
         const said = error.violations[0].description;
         if (typeof description === 'string') assert.equal(said, description);
         else assert.match(said, description);
-        const at = requests && Array.from(requests).length - 1;
+        const at = requests ? Array.from(requests).length - 1 : undefined;
         assert.equal(error.message, `${requests && !field.startsWith('requests') ? `requests[${at}].` : ''}${field}: ${said}`);
         assert.equal(error.violations[0].request, at);
         return true;

@@ -124,6 +124,7 @@ test('options that cannot be used are named', () =>
       [far, { tls: true, clientKey: own.key }, 'clientCertificate: missing; a certificate and its key go together'],
       [far, { tls: true, caCertificate: ca.key }, new RegExp(`^caCertificate: ${ca.key} holds no certificate in PEM`)],
       [far, { tls: true, clientCertificate: own.cert, clientKey: ca.key }, new RegExp(`^clientKey: ${ca.key} is not the key of ${own.cert}`)],
+      [far, { connectTimeout: 0 }, 'connectTimeout: 0 s leave no time to connect'],
       [far, { silence: 1 }, 'silence: 1 s is neither 0 nor at least 2 s'],
       [far, { retry: -1 }, 'retry: -1 is not a finite number >= 0'],
       [far, { tls: 'yes' }, "tls: 'yes' is not a boolean"],

@@ -401,6 +401,18 @@ print(api_implementation.Type())
             with self.subTest(message), self.assertRaisesRegex(ChoreoError, f"^{message}"):
                 list(self.client.stream_dance(requests))
 
+    def test_answers_can_be_closed(self):
+        answers = self.client.stream_dance([{"config": {"generate_until": 30}}])
+        next(answers)
+        for _ in range(2):
+            answers.close()
+        self.assertEqual(list(answers), [])
+
+    def test_the_client_s_signature_names_its_options(self):
+        for signature in map(inspect.signature, (Client, Client.__init__)):
+            self.assertLessEqual({"addresses", "tls", "token_file", "retry_s"}, set(signature.parameters))
+            self.assertNotIn("options", signature.parameters)
+
     def test_public_functions_say_what_they_take_and_give(self):
         public = [aio.stream, pose]
         for kind in (Answers, Client):

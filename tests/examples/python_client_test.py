@@ -212,6 +212,7 @@ class ClientTest(unittest.TestCase):
                 (far, {"tsl": True}, r"tsl: no option; did you mean tls\?$"),
                 (far, {"patience": 1}, "patience: no option; there are tls, ca_certificate, "),
                 (far, {"tls": "yes"}, "tls: a str is not a bool$"),
+                (far, {"connect_timeout_s": 0}, "connect_timeout_s: 0 s leave no time to connect$"),
                 (far, {"retry_s": -1}, "retry_s: -1 is not a finite number >= 0$"),
             ):
                 self.assert_refused("INVALID_ARGUMENT", "^" + message, Client, addresses, **options)

@@ -3,6 +3,7 @@
 import { checked, requireKind, requireSendable } from './check.js';
 import { invalid } from './error.js';
 import { RefusedKeys, requireKey } from './refused_keys.js';
+import { quoted } from './words.js';
 
 /** Kinds of requests of which a dance takes one. */
 const once = ['config', 'end_of_audio', 'keyframes_complete'];
@@ -23,7 +24,7 @@ export class Journal {
     const begin = requests?.[Symbol.asyncIterator] ?? requests?.[Symbol.iterator];
     const isOne = typeof requests === 'object' && requests !== null && !begin;
     if (isOne) throw invalid('requests', 'is one object: put it in a list, [{ config }, ...]');
-    if (typeof requests !== 'object' || !begin) throw invalid('requests', `${typeof requests} is not an iterable of messages`);
+    if (typeof requests !== 'object' || !begin) throw invalid('requests', `${quoted(requests)} is not an iterable of messages`);
     this.#source = begin.call(requests);
   }
 

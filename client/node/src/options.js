@@ -39,6 +39,7 @@ export function checkOptions(addresses, given) {
     if (typeof value !== wanted) throw invalid(name, `${shown} is not a ${wanted}`);
     if (typeof value === 'number' && !(value >= 0 && Number.isFinite(value))) throw invalid(name, `${value} is not a finite number >= 0`);
   }
+  if (options.connectTimeout === 0) throw invalid('connectTimeout', '0 s leave no time to connect');
   if (options.silence > 0 && options.silence < leastSilence) {
     throw invalid('silence', `${options.silence} s is neither 0 nor at least ${leastSilence} s`);
   }

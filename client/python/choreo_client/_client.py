@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+import inspect
 import threading
 import typing
 
@@ -7,7 +8,7 @@ from . import choreography
 from ._dance import Resumed, dance
 from ._errors import invalid
 from ._from_loop import FromLoop
-from ._options import options_of
+from ._options import Options, options_of
 from ._replicas import Cancellation, Replicas
 from ._transition import transition
 
@@ -39,6 +40,10 @@ class Answers(typing.Generic[Answer]):
         return self
 
     def __exit__(self, *_: object) -> None:
+        self.close()
+
+    def close(self) -> None:
+        """Ends the call, here and on the server, as leaving the context does. Reading then ends. Any thread may call it."""
         self.cancel()
         with self._reading:
             self._answers.close()
@@ -116,3 +121,14 @@ class Client:
         GenerateTransitionRequest or its fields. If its server is lost, another one repeats it; no answer is delivered twice."""
         until = Cancellation(timeout)
         return Answers(transition(self._replicas, request, until), until)
+
+
+def _with_options(call):
+    """The signature of `call` with the options by name, for help() and editors."""
+    own = inspect.signature(call)
+    positional = [one for one in own.parameters.values() if one.kind is not one.VAR_KEYWORD]
+    options = [one.replace(kind=one.KEYWORD_ONLY) for one in inspect.signature(Options).parameters.values()]
+    return own.replace(parameters=positional + options)
+
+
+Client.__init__.__signature__ = _with_options(Client.__init__)  # type: ignore[attr-defined]

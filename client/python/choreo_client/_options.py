@@ -34,7 +34,7 @@ class Options:
     server_name         the name in the server's certificate, with tls; None: the host name in its address
     token               sent with each call; requires tls, unless all addresses are on this machine
     token_file          a file with the token, instead of token; read again for each call, so that the token can be renewed
-    connect_timeout_s   the time limit for one attempt to connect to one address
+    connect_timeout_s   the time limit for one attempt to connect to one address; above 0
     silence_s           a server that sends nothing for so long, not even answers to pings, counts as lost; at least 2; 0: never
     retry_s             how long to keep retrying since a call last made progress; 0: no retries, so no resumption either. If a server asks
                         for a longer wait than is left, the call fails at once with an error that has the server's retry_after
@@ -62,6 +62,8 @@ class Options:
             value = getattr(self, name)
             if finite(value) is None or value < 0:
                 raise invalid(name, f"{quoted(value)} is not a finite number >= 0")
+        if self.connect_timeout_s == 0:
+            raise invalid("connect_timeout_s", "0 s leave no time to connect")
         if 0 < self.silence_s < LEAST_SILENCE:
             raise invalid("silence_s", f"{self.silence_s} s is neither 0 nor at least {LEAST_SILENCE} s")
         if not addresses:
