@@ -28,6 +28,7 @@ test("all that a page's calls throw are DanceErrors, with a status or a code", (
     assert.equal((await ended).code, 'UNAVAILABLE');
     const page = connectDance(url);
     assert.throws(() => page.wear(), DanceError);
+    assert.deepEqual(await failure(page.removeKey('half \ud83d')), [400, 'INVALID_ARGUMENT']);
     while (!page.over) await sleep(20);
     assert.deepEqual(await failure(page.setKey(kick)), [undefined, 'FAILED_PRECONDITION']);
     assert.deepEqual(await failure(page.removeKey('key 1')), [undefined, 'FAILED_PRECONDITION']);

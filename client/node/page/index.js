@@ -114,6 +114,8 @@ class PageDance {
   }
 
   async removeKey(id) {
+    // No key has such an id, nor any address.
+    if (/\p{Surrogate}/u.test(id)) throw new DanceError('id: has half a character, a surrogate without its pair', { status: 400, code: 'INVALID_ARGUMENT' });
     await this.#send('DELETE', `/keys/${encodeURIComponent(id)}`);
     this.#pending.delete(id);
   }
