@@ -44,7 +44,7 @@ struct KeyRejected {
   };
   std::string id = {};
   int64_t frame = 0;           ///< the requested frame, -1 if it is none; for a removal, the key's
-  int64_t earliest_frame = 0;  ///< the first that a new key may have now
+  int64_t earliest_frame = 0;  ///< the first that a new key may have now, -1 if none
   std::string reason = {};
   Code code = Code::kUnknown;
   std::string field = {};         ///< of kInvalid: the path in the message, as in BadRequest

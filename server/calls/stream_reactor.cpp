@@ -251,7 +251,9 @@ class DanceSession final : public CallSession<DanceResponse, DanceStream>,
     try {
       wire::WithPaths([&] { stream.RemoveKey(id); });
     } catch (const Error& error) {
-      if (error.code() != ErrorCode::kNotFound) throw;
+      const bool is_unusable =
+          error.code() == ErrorCode::kNotFound || error.code() == ErrorCode::kInvalidArgument;
+      if (!is_unusable) throw;
       Reject(stream, id, std::nullopt, error);
     }
   }

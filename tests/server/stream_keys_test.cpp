@@ -166,6 +166,33 @@ TEST_F(StreamKeysTest, RemovalsOfUnknownKeysAreRejectedWhereThatIsAskedFor) {
   EXPECT_EQ(rejected->keyframe_rejected().field(), "remove_keyframe.id");
 }
 
+TEST_F(StreamKeysTest, RemovalsAfterTheLastKeyAreRejectedWhereThatIsAskedFor) {
+  Start();
+  const auto dance = [&](bool rejects) {
+    DanceClient client(stub());
+    v1::DanceConfig config = Config();
+    config.set_frames(60);
+    config.set_reject_invalid_keys(rejects);
+    client.Send(config);
+    client.SendKeyframe(Key("a", 30));
+    v1::StreamDanceRequest request;
+    request.mutable_keyframes_complete();
+    client.Send(request);
+    request.mutable_remove_keyframe()->set_id("a");
+    client.Send(request);
+    return client.Finish();
+  };
+  EXPECT_EQ(dance(false).status.error_code(), grpc::StatusCode::INVALID_ARGUMENT);
+  const Answer answer = dance(true);
+  ASSERT_TRUE(answer.status.ok()) << answer.status.error_message();
+  const auto rejected = std::ranges::find_if(answer.events, &v1::Event::has_keyframe_rejected);
+  ASSERT_NE(rejected, answer.events.end());
+  EXPECT_EQ(rejected->keyframe_rejected().id(), "a");
+  EXPECT_EQ(rejected->keyframe_rejected().code(), v1::REJECTION_CODE_INVALID);
+  EXPECT_EQ(rejected->keyframe_rejected().field(), "remove_keyframe");
+  EXPECT_EQ(rejected->keyframe_rejected().earliest_frame(), -1);
+}
+
 TEST_F(StreamKeysTest, ImpossibleKeysAreWarnedOfOnce) {
   Start();
   DanceClient client(stub());

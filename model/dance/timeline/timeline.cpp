@@ -13,6 +13,7 @@ namespace {
 
 constexpr double kMinCut_s = 0.5;
 constexpr int64_t kNever = std::numeric_limits<int64_t>::max();
+constexpr int64_t kNoFrame = -1;
 
 std::string Frames(int64_t frames) { return std::to_string(frames); }
 
@@ -88,7 +89,8 @@ const Key* Timeline::Neighbour(int64_t frame, const std::string& except_id) cons
 int64_t Timeline::EarliestFrame() const {
   int64_t frame = std::max(frontier_, options_.first_frame);
   while (const Key* key = Neighbour(frame, "")) frame = key->frame + kMinKeyDistance;
-  return frame;
+  const int64_t end = options_.end_frame.value_or(kMaxDanceFrames + 1);
+  return complete_ || frame >= end ? kNoFrame : frame;
 }
 
 KeyRejected Timeline::Reject(const std::string& id, int64_t frame, KeyRejected::Code code,
@@ -168,7 +170,7 @@ std::optional<KeyRejected> Timeline::Set(Key key, const KeyMoment& when, const s
 
 KeyRejected Timeline::RejectInvalid(const std::string& id, const std::optional<KeyMoment>& when,
                                     std::string reason) {
-  int64_t frame = -1;
+  int64_t frame = kNoFrame;
   try {
     if (when) previous_frame_ = frame = Resolve(*when, "");
   } catch (const Error&) {  // the moment itself is invalid

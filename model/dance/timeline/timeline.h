@@ -155,7 +155,7 @@ class Timeline {
   int64_t Resolve(const KeyMoment& when, const std::string& field) const;
   void CheckOpen(const std::string& field) const;
   const Key* Neighbour(int64_t frame, const std::string& except_id) const;
-  // The first frame that a new key may have now.
+  // The first frame that a new key may have now; -1 if none is left.
   int64_t EarliestFrame() const;
   KeyRejected Reject(const std::string& id, int64_t frame, KeyRejected::Code why,
                      std::string reason);

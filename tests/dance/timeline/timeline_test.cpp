@@ -168,6 +168,19 @@ TEST(Timeline, KeysAreEditedAfterTheFrontier) {
   EXPECT_EQ(Drain(timeline), (std::vector<Span>{{31, 61, "b"}}));
 }
 
+TEST(Timeline, RejectionsNameNoEarliestFrameWhereNoneIsOpen) {
+  Timeline timeline({.end_frame = 100, .granted = 0});
+  Set(timeline, "last", AtFrame{98});
+  timeline.GenerateUntil(97);
+  const auto late = Set(timeline, "late", AtFrame{50});
+  ASSERT_TRUE(late);
+  EXPECT_EQ(late->earliest_frame, -1);  // 99 would be too near to the last key
+  timeline.Remove("last", "remove");
+  EXPECT_EQ(Set(timeline, "late", AtFrame{50})->earliest_frame, 97);
+  timeline.Complete();
+  EXPECT_EQ(timeline.RejectInvalid("late", AtFrame{99}, "it is over").earliest_frame, -1);
+}
+
 TEST(Timeline, LateMessagesAreRejectedWithTheEarliestFrame) {
   Timeline timeline({});
   timeline.GenerateUntil(0);
