@@ -100,11 +100,14 @@ Target ToTarget(const v1::Pose& pose, const v1::JointMask* mask, const Skeleton&
     int previous = -1;
     for (int i = 0; i < mask->joints_size(); ++i) {
       const int joint = mask->joints(i);
-      if (joint <= previous || joint >= skeleton.joints()) {
-        throw InvalidArgument(At(mask_field + ".joints", i),
-                              std::to_string(joint) + " is not in [" +
-                                  std::to_string(previous + 1) + ", " +
-                                  std::to_string(skeleton.joints() - 1) + "]");
+      const auto refuse = [&](const std::string& why) {
+        throw InvalidArgument(At(mask_field + ".joints", i), std::to_string(joint) + why);
+      };
+      if (joint < 0 || joint >= skeleton.joints())
+        refuse(" is not in [0, " + std::to_string(skeleton.joints() - 1) + "]");
+      if (joint <= previous) {
+        refuse(" is not after the joint before it, " + std::to_string(previous) +
+               ": they are strictly increasing");
       }
       target.mask.joints[static_cast<size_t>(joint)] = true;
       previous = joint;

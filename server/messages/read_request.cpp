@@ -53,6 +53,8 @@ void CheckMusic(const v1::AudioFormat& format) {
   switch (format.encoding()) {
     case v1::AUDIO_ENCODING_PCM_F32LE:
     case v1::AUDIO_ENCODING_PCM_S16LE:
+      if (format.sample_rate() == 0) throw InvalidArgument(field + ".sample_rate", "missing");
+      if (format.channels() == 0) throw InvalidArgument(field + ".channels", "missing");
       choreo::CheckAudioFormat(format.sample_rate(),
                                static_cast<int>(std::min<uint32_t>(format.channels(), 1U << 30)),
                                field);

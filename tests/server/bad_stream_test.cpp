@@ -184,7 +184,15 @@ INSTANTIATE_TEST_SUITE_P(
          WithConfig("audio_format { encoding: AUDIO_ENCODING_PCM_S16LE sample_rate: 7999 "
                     "channels: 1 }"),
          "config.audio_format.sample_rate",
-         {"7999", "8000"}},
+         {"7999 Hz", "8000"}},
+        {"NoSampleRate",
+         WithConfig("audio_format { encoding: AUDIO_ENCODING_PCM_S16LE channels: 1 }"),
+         "config.audio_format.sample_rate",
+         {"missing"}},
+        {"NoChannels",
+         WithConfig("audio_format { encoding: AUDIO_ENCODING_PCM_S16LE sample_rate: 44100 }"),
+         "config.audio_format.channels",
+         {"missing"}},
         {"Channels",
          WithConfig("audio_format { encoding: AUDIO_ENCODING_PCM_S16LE sample_rate: 44100 "
                     "channels: 9 }"),

@@ -13,7 +13,7 @@ namespace choreo {
 void CheckAudioFormat(double sample_rate, int channels, const std::string& name) {
   if (!(sample_rate >= kMinSampleRate && sample_rate <= kMaxSampleRate) ||
       sample_rate != std::floor(sample_rate)) {
-    throw InvalidArgument(name + ".sample_rate", std::to_string(sample_rate) +
+    throw InvalidArgument(name + ".sample_rate", InFull(sample_rate) +
                                                      " Hz is not a whole number from " +
                                                      std::to_string(kMinSampleRate) + " to " +
                                                      std::to_string(kMaxSampleRate));

@@ -8,6 +8,7 @@
 
 #include "model/audio/signal/format.h"
 #include "model/core/error.h"
+#include "model/core/rounded.h"
 
 namespace choreo {
 namespace {
@@ -99,9 +100,8 @@ void AudioFeed::Push(std::span<const float> interleaved, int64_t first_sample,
   const size_t channels = static_cast<size_t>(channels_);
   const int64_t end = expected + static_cast<int64_t>(interleaved.size() / channels);
   if (static_cast<double>(end) > kMaxAudioSeconds * sample_rate_) {
-    throw InvalidArgument("samples",
-                          "ends at " + std::to_string(static_cast<double>(end) / sample_rate_) +
-                              " s, the limit is " + std::to_string(kMaxAudioSeconds) + " s");
+    throw InvalidArgument("samples", "ends at " + InFull(static_cast<double>(end) / sample_rate_) +
+                                         " s, the limit is " + InFull(kMaxAudioSeconds) + " s");
   }
   if (expected == 0 && !interleaved.empty())
     std::copy_n(interleaved.begin(), channels, offsets_.begin());

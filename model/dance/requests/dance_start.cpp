@@ -73,8 +73,10 @@ ValidDance::ValidDance(DanceConfig request, const ModelInfo& model) : Valid(std:
   const DanceConfig& config = **this;
   CheckStart(config, model);
   const int64_t first = config.FirstFrame();
-  if (config.end_frame)
+  if (config.end_frame) {
+    CheckedIn(first, 0, kMaxDanceFrames, "continuation.frame");  // else there is no such end
     CheckedIn(*config.end_frame, std::max<int64_t>(first, 1), kMaxDanceFrames, "end_frame");
+  }
   if (config.generate_until)
     CheckedIn(*config.generate_until, 0, kMaxDanceFrames, "generate_until");
   if (config.audio) {

@@ -82,6 +82,11 @@ void CheckContinuation(const ModelInfo& model, const Continuation& continuation,
                                                 std::to_string(model.history_frames));
   }
   CheckHistory(model.skeleton, continuation.poses, field + ".poses");
+  if (continuation.audio_from_sample.value_or(0) < 0) {
+    throw InvalidArgument(
+        field + ".audio_from_sample",
+        std::to_string(*continuation.audio_from_sample) + " is before the first sample, 0");
+  }
   if (continuation.last_beat) {
     // Beats may be after the music's end, as far as the last transition reached.
     const double longest = kMaxDanceFrames / model.fps;

@@ -139,6 +139,17 @@ TEST(Validation, ConfigsNameFieldValueAndLimit) {
               c.end_frame = 59;
             }),
             "end_frame: 59 is not in [60, 108000]");
+  EXPECT_EQ(refusal([&](DanceConfig& c) {
+              c.continuation = good;
+              c.continuation->frame = kMaxDanceFrames + 1;
+              c.end_frame = 150;
+            }),
+            "continuation.frame: 108001 is not in [0, 108000]");
+  EXPECT_EQ(refusal([&](DanceConfig& c) {
+              c.continuation = good;
+              c.continuation->audio_from_sample = -5;
+            }),
+            "continuation.audio_from_sample: -5 is before the first sample, 0");
   EXPECT_NE(refusal([](DanceConfig& c) { c.audio = DanceConfig::Audio{4000, 1, 0}; }), "accepted");
   EXPECT_NE(refusal([](DanceConfig& c) { c.audio = DanceConfig::Audio{44100, 9, 0}; }), "accepted");
   EXPECT_NE(refusal(
