@@ -121,7 +121,7 @@ test('the monitor finds where the pods show their metrics', () => {
   assert.deepEqual(selector.matchLabels, labels);
   assert.equal(labels[jobLabel], ofKind('Service').metadata.name); // the job of the alerts
   const {containerPort} = container.ports.find(({name}) => name === endpoint.port);
-  assert.ok(setting('CHOREO_METRICS').endsWith(`:${containerPort}`));
+  assert.equal(setting('CHOREO_METRICS'), `[::]:${containerPort}`); // clusters may have IPv6 alone
   assert.ok(metricSource.includes(`"${endpoint.path}"`));
   const allowed = ofKind('NetworkPolicy').spec.ingress.flatMap((rule) => rule.ports.map((open) => open.port));
   assert.deepEqual(allowed.sort(), container.ports.map(({name}) => name).sort());
