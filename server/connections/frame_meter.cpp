@@ -14,10 +14,15 @@ FrameMeter::Flood FrameMeter::Read(std::span<const uint8_t> bytes, Clock::time_p
     second_ends_ = now + std::chrono::seconds(1);
     lacking_ = 0;
   }
+  bytes = ReadPreface(bytes);
+  if (is_foreign_) return Flood::kNone;
   while (!bytes.empty()) {
     const size_t skipped = std::min(skipped_, bytes.size());
     skipped_ -= skipped;
     bytes = bytes.subspan(skipped);
+    // A frame may announce 16 MiB and send nothing.
+    flooded_ = in_headers_ && AddHeaders(skipped) != Flood::kNone;
+    if (flooded_) return Flood::kHeaders;
     if (bytes.empty()) break;
     head_[head_bytes_++] = bytes.front();
     bytes = bytes.subspan(1);
@@ -31,13 +36,25 @@ FrameMeter::Flood FrameMeter::Read(std::span<const uint8_t> bytes, Clock::time_p
   return Flood::kNone;
 }
 
+std::span<const uint8_t> FrameMeter::ReadPreface(std::span<const uint8_t> bytes) {
+  const std::string_view due = kPreface.substr(preface_, bytes.size());
+  is_foreign_ |= !std::equal(due.begin(), due.end(), bytes.begin());
+  preface_ += due.size();
+  return bytes.subspan(due.size());
+}
+
 FrameMeter::Flood FrameMeter::ReadFrame(int type, size_t length) {
+  in_headers_ = type == kHeaders || type == kContinuation;
   if (type == kData) return Lack(kFullFrame - std::min(length, kFullFrame));
-  if (type != kHeaders && type != kContinuation) return Lack(kFullFrame);
+  if (!in_headers_) return Lack(kFullFrame);
   if (type == kHeaders) headers_ = 0;
-  headers_ += kFrameHead + length;
-  if (headers_ > kMostHeaderBytes) return Flood::kHeaders;
+  if (AddHeaders(kFrameHead) != Flood::kNone) return Flood::kHeaders;
   return type == kHeaders ? Lack(kFramesOfCall * kFullFrame) : Flood::kNone;
+}
+
+FrameMeter::Flood FrameMeter::AddHeaders(size_t bytes) {
+  headers_ += bytes;
+  return headers_ > kMostHeaderBytes ? Flood::kHeaders : Flood::kNone;
 }
 
 FrameMeter::Flood FrameMeter::Lack(size_t bytes) {

@@ -222,6 +222,19 @@ TEST_F(HostileTest, HeadersWithoutAnEndAreCutOff) {
   EXPECT_TRUE(DanceInRealTime(*behaved, Config(), 1).answer.status.ok());
 }
 
+// Bytes of another protocol may look like a frame that announces a flood of headers. Nobody of that
+// address is locked out.
+TEST_F(HostileTest, WhoSpeaksNoHttp2FloodsNothing) {
+  Start(1);
+  const uint64_t before = HeaderFloods() + EmptyFrameFloods();
+  const std::string head("\x01\0\x01\x09\0\0\0\0\x01", 9);  // CONTINUATION, 65,537 bytes
+  const SilentConnections junk("127.0.0.1:" + std::to_string(server->port()), 1,
+                               std::string(24, 'J') + head + std::string(500, 'A'));
+  ExpectEventually([&] { return junk.Closed() == 1; }, "gRPC closes it");
+  EXPECT_EQ(HeaderFloods() + EmptyFrameFloods(), before);
+  EXPECT_TRUE(DanceToAKey().status.ok());
+}
+
 // Frames of no call, or of a finished one. No window limits them, and gRPC handles each. A client
 // that has flooded the server may not reconnect for a while.
 TEST_F(HostileTest, FramesWithoutContentAreCutOff) {

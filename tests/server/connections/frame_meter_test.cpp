@@ -59,6 +59,31 @@ TEST(FrameMeterTest, HeadersHaveAnEnd) {
   }
 }
 
+// A frame's head may announce 16 MiB of headers: only what comes counts.
+TEST(FrameMeterTest, AnnouncedHeadersAreNotSentOnes) {
+  for (const int type : {Http2::kHeaders, Http2::kContinuation}) {
+    const std::string most =
+        Http2::Frame(type, 0, 1, std::string(FrameMeter::kMostHeaderBytes + 1, 'a'));
+    for (const size_t at_once : {size_t{1}, size_t{7}, most.size()}) {
+      const std::string begun = kPreface + most.substr(0, FrameMeter::kMostHeaderBytes);
+      EXPECT_TRUE(Passes(begun, at_once)) << "type " << type;
+      EXPECT_FALSE(Passes(kPreface + most, at_once)) << "type " << type;
+    }
+  }
+}
+
+// Scanners, and TLS where there is none: gRPC closes such a connection.
+TEST(FrameMeterTest, OtherProtocolsHaveNoFrames) {
+  const std::string endless = Frames(Http2::kContinuation, 2 * FrameMeter::kMostHeaderBytes) +
+                              std::string(200'000, '\0');  // empty DATA
+  for (const std::string& begun : {std::string(24, 'J'), std::string("\x16\x03\x01\0\xee", 5),
+                                   std::string("GET /metrics HTTP/1.1\r\n\r\n"),
+                                   kPreface.substr(0, 23) + '\r', std::string()}) {
+    for (const size_t at_once : {size_t{1}, size_t{7}, endless.size()})
+      EXPECT_TRUE(Passes(begun + endless, at_once)) << begun;
+  }
+}
+
 // PRIORITY, RST_STREAM, SETTINGS, PING, WINDOW_UPDATE, an unknown type, and empty DATA.
 TEST(FrameMeterTest, FramesWithoutContentAreCountedBySeconds) {
   const std::vector<std::pair<int, size_t>> kinds = {{2, 5}, {3, 4},   {4, 6}, {6, 8},
