@@ -11,6 +11,8 @@
 
 #include "model/core/error.h"
 #include "model/core/printable.h"
+#include "model/messages/style_figures.h"
+#include "model/messages/style_figures_file.h"
 #include "network/pem.h"
 #include "server/settings/fault_list.h"
 
@@ -22,6 +24,11 @@ constexpr const char* kDefault = "default.safetensors";
 
 int64_t Nanoseconds(const timespec& time) {
   return int64_t{time.tv_sec} * 1'000'000'000 + time.tv_nsec;
+}
+
+std::vector<double> NumbersOf(const std::optional<StyleFigures>& figures) {
+  if (!figures) return {};
+  return {figures->recognised, figures->chance, figures->low};
 }
 
 }  // namespace
@@ -63,10 +70,16 @@ ModelFolder::Stamp ModelFolder::StampOf(const std::filesystem::path& file) {
           .changed_ns = Nanoseconds(status.st_ctim)};
 }
 
+ModelFolder::Stamp ModelFolder::FiguresStampOf(const std::filesystem::path& file) try {
+  return StampOf(StyleFiguresFile(file));
+} catch (const Error&) {
+  return {};
+}
+
 Server::Samplers ModelFolder::LoadFile(const std::filesystem::path& file, Files* files) const {
   RequireRegularFile(kFlag, file);
-  const Stamp stamp =
-      StampOf(file);  // taken first, so that the next Reload sees changes during loading
+  // Taken first, so that the next Reload sees changes during loading.
+  const Stamp stamp = StampOf(file), figures_stamp = FiguresStampOf(file);
   Server::Samplers engines = load_(file);
   const ModelInfo& model = engines.front()->model();
   for (const auto& [other, served] : *files) {
@@ -75,7 +88,8 @@ Server::Samplers ModelFolder::LoadFile(const std::filesystem::path& file, Files*
                                        "\" comes from " + other.filename().string());
     }
   }
-  files->emplace(file, Served{stamp, model.name, model.fingerprint, model.card});
+  files->emplace(file, Served{stamp, figures_stamp, model.name, model.fingerprint, model.card,
+                              NumbersOf(model.style_figures)});
   return engines;
 }
 
@@ -127,6 +141,7 @@ std::optional<Server::Samplers> ModelFolder::Inspect(const std::filesystem::path
   try {
     const auto before = served_.find(file);
     if (before != served_.end() && StampOf(file) == before->second.stamp &&
+        FiguresStampOf(file) == before->second.figures_stamp &&
         !Has(*files, before->second.model)) {
       files->insert(*before);
       return std::nullopt;
@@ -135,8 +150,8 @@ std::optional<Server::Samplers> ModelFolder::Inspect(const std::filesystem::path
     const Served& now = files->at(file);
     const bool is_served = std::ranges::any_of(served_, [&](const auto& other) {
       const Served& then = other.second;
-      return std::tie(then.model, then.fingerprint, then.card) ==
-             std::tie(now.model, now.fingerprint, now.card);
+      return std::tie(then.model, then.fingerprint, then.card, then.figures) ==
+             std::tie(now.model, now.fingerprint, now.card, now.figures);
     });
     if (is_served) return std::nullopt;
     return engines;

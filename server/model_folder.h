@@ -29,14 +29,15 @@ class ModelFolder {
   /// "--models") for an empty or unreadable folder, and for two models of the same name.
   std::vector<Server::Samplers> Load();
 
-  /// Rereads the folder: loads new and changed files, and updates the server. Logs an unusable file
+  /// Rereads the folder: loads new and changed files, and those whose StyleFiguresFile has changed,
+  /// and updates the server. Logs an unusable file
   /// as an error and retries it next time. Until then it serves the file's previous model, unless
   /// another file has a model of that name. Changes nothing if the folder is empty or unreadable.
   /// Once `stopped` returns true, loads nothing more and does not update the server.
   void Reload(Server& server, const std::function<bool()>& stopped);
 
  private:
-  /// Identifies a version of a file.
+  /// Identifies a version of a file; a missing one has zeros.
   struct Stamp {
     dev_t device = 0;
     ino_t inode = 0;
@@ -46,14 +47,17 @@ class ModelFolder {
   };
   /// The model served from a file.
   struct Served {
-    Stamp stamp;
+    Stamp stamp, figures_stamp;
     std::string model, fingerprint, card;
+    std::vector<double> figures;  // of StyleFigures; empty: none
   };
   using Files = std::map<std::filesystem::path, Served>;
   using Faults = std::map<std::filesystem::path, std::string>;
 
   std::vector<std::filesystem::path> List() const;
   static Stamp StampOf(const std::filesystem::path& file);
+  /// Of the file's StyleFiguresFile, which may be missing or no file at all.
+  static Stamp FiguresStampOf(const std::filesystem::path& file);
   static bool Has(const Files& files, const std::string& model);
   /// Loads a file and records it in `files`. Throws if `files` has a model of that name.
   Server::Samplers LoadFile(const std::filesystem::path& file, Files* files) const;

@@ -8,15 +8,14 @@
 
 namespace choreo {
 
-/// Reads how often a checkpoint's styles are recognised, from NAME.figures.json beside
-/// NAME.safetensors:
+/// Reads how often a checkpoint's styles are recognised, from its StyleFiguresFile:
 ///
 ///     {"weights": "26bf...", "styles": {"recognised": 8.4, "chance": 6.25, "low": 7.6}}
 ///
 /// `weights` is the content hash of the measured checkpoint. Whatever is in the checkpoint itself
-/// changes this hash, so figures cannot be there. None without the file, or if `hash` is another:
-/// they are of an earlier training. Throws Error(kInvalidArgument), whose field is the file, if it
-/// cannot be read.
+/// changes this hash, so figures cannot be there. None without the file. Throws Error, whose field
+/// begins with the file, if it is unusable, or if `hash` is another: they are of an earlier
+/// training or of another model.
 std::optional<StyleFigures> ReadStyleFigures(const std::filesystem::path& checkpoint,
                                              const std::string& hash);
 

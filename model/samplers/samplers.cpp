@@ -3,7 +3,9 @@
 #include <torch/cuda.h>
 #include <torch/types.h>
 
+#include <algorithm>
 #include <map>
+#include <optional>
 #include <utility>
 
 #include "model/core/error.h"
@@ -19,6 +21,18 @@
 
 namespace choreo {
 namespace {
+
+/// A model dances as well without its figures, so a fault in their file is but a note.
+std::optional<StyleFigures> FiguresOf(const std::filesystem::path& checkpoint,
+                                      const std::string& hash, std::vector<std::string>* notes) {
+  try {
+    return ReadStyleFigures(checkpoint, hash);
+  } catch (const Error& error) {
+    const std::string note = Printable(error.what()) + "; its styles count as unmeasured";
+    if (notes && std::ranges::find(*notes, note) == notes->end()) notes->push_back(note);
+    return std::nullopt;
+  }
+}
 
 SamplerFactory LoadContinuousFlow(const Safetensors& content, const std::filesystem::path& path,
                                   const EngineRequest& request) {
@@ -43,7 +57,7 @@ SamplerFactory LoadContinuousFlow(const Safetensors& content, const std::filesys
   info.controls = ControlNames();
   info.velocity_references = {MedianReference(config.median_factors)};
   info.styles = config.styles;
-  info.style_figures = ReadStyleFigures(path, checkpoint.hash);
+  info.style_figures = FiguresOf(path, checkpoint.hash, request.notes);
   info.plan_stages = true;
   info.plan_options = config.plan;
   return [info, device = request.device.name(), parts, network] {

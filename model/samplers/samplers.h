@@ -26,7 +26,8 @@ void SetTorchThreads(int threads);
 /// Loads a checkpoint once and makes one sampler per device; samplers on the same device share
 /// weights. `kernels`: a PackedKernels::name, which gives packed engines on different CPUs one
 /// fingerprint; empty: the fastest here. It does not affect LibTorch. `notes` gets
-/// FirstIndependent's notes (model/engine/loading.h). Throws like ReadSafetensors and
+/// FirstIndependent's notes (model/engine/loading.h), and what is wrong with the file of
+/// ReadStyleFigures, which changes nothing else. Throws like ReadSafetensors and
 /// ParseContinuousFlow (model/flow/continuous_flow.h) do, and Error(kInvalidArgument) for a kind or
 /// kernels that the device or machine lacks.
 std::vector<std::unique_ptr<Sampler>> MakeSamplers(const std::filesystem::path& checkpoint,

@@ -127,6 +127,33 @@ TEST_F(ReloadTest, LoadsOnlyChangedFiles) {
   EXPECT_EQ(Whole("a").Join(), before.Join());
 }
 
+// They lie beside the checkpoint, so its own file stays as it is.
+TEST_F(ReloadTest, ChangedFiguresAreRead) {
+  Write("a.safetensors", "a 1");
+  StartFolder();
+  const auto recognised = [this] {
+    grpc::ClientContext context;
+    v1::GetServerInfoResponse info;
+    EXPECT_TRUE(stub().GetServerInfo(&context, {}, &info).ok());
+    return info.models(0).style_recognition().recognised_percent();
+  };
+  EXPECT_EQ(recognised(), 0);
+  const auto during = Begin("a");
+  Write("a.figures.json", "60");
+  Reload();
+  EXPECT_EQ(recognised(), 60);
+  Write("a.figures.json", "broken");
+  Reload();
+  EXPECT_EQ(recognised(), 0);
+  std::filesystem::remove(models / "a.figures.json");
+  loaded = 0;
+  Reload();
+  Reload();
+  EXPECT_EQ(loaded, 1);
+  EXPECT_TRUE(during->Finish().status.ok());
+  ExpectAlive(1);
+}
+
 TEST_F(ReloadTest, DoesNotStartFromAnUnusableFolder) {
   ExpectError(ErrorCode::kInvalidArgument, "no .safetensors file", [&] { folder.Load(); });
   Write("a.safetensors", "a 1");

@@ -4,10 +4,13 @@
 #include <filesystem>
 #include <fstream>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "model/messages/style_figures.h"
+#include "model/messages/style_figures_file.h"
 #include "server/model_folder.h"
 #include "tests/server/fixture.h"
 #include "tests/support/temporary_folder.h"
@@ -17,9 +20,11 @@ namespace choreo {
 /// A model of the name and version that a file has; versions dance differently.
 class VersionedSampler final : public FakeSampler {
  public:
-  VersionedSampler(const std::string& name, int version, std::shared_ptr<std::atomic<int>> alive)
+  VersionedSampler(const std::string& name, int version, std::optional<StyleFigures> figures,
+                   std::shared_ptr<std::atomic<int>> alive)
       : version_(version), alive_(std::move(alive)) {
     model_.name = name;
+    model_.style_figures = figures;
     model_.fingerprint = name + "-" + std::to_string(version);
     ++*alive_;
   }
@@ -62,8 +67,15 @@ class ReloadTest : public ServerTest {
     int version = 0;
     if (!(std::ifstream(file) >> name >> version)) throw InvalidArgument(file, "no model");
     Server::Samplers samplers;
-    samplers.push_back(std::make_unique<VersionedSampler>(name, version, alive));
+    samplers.push_back(std::make_unique<VersionedSampler>(name, version, Figures(file), alive));
     return samplers;
+  }
+
+  // Those of a number in the file of figures.
+  static std::optional<StyleFigures> Figures(const std::filesystem::path& checkpoint) {
+    StyleFigures figures;
+    if (!(std::ifstream(StyleFiguresFile(checkpoint)) >> figures.recognised)) return std::nullopt;
+    return figures;
   }
 
   static v1::DanceConfig ConfigOf(const std::string& model, int frames = 90) {

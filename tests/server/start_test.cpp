@@ -91,6 +91,18 @@ TEST_F(StartTest, ServesAShippedModelByItsName) {
   EXPECT_THAT(both.said, testing::HasSubstr("--model: \"free\" is a shipped model"));
 }
 
+// A model dances as well without its figures: at start, at a check and at SIGHUP.
+TEST_F(StartTest, WarnsOfABrokenFileOfFigures) {
+  const std::filesystem::path figures = folder_ / "model.figures.json";
+  std::ofstream(figures) << R"({"weights": 7})";
+  const Outcome outcome = Shell("'" CHOREOD_PROGRAM "' --check --listen 127.0.0.1:0 --models '" +
+                                folder_.path().string() + "'");
+  EXPECT_EQ(outcome.code, 0) << outcome.said;
+  EXPECT_THAT(outcome.said,
+              testing::HasSubstr(figures.string() +
+                                 ": weights: 7 is no text; its styles count as unmeasured"));
+}
+
 // It listens only after it has loaded.
 TEST_F(StartTest, WarnsOfSettingsThatTheModelIgnores) {
   const std::string log = path_.string() + ".log";
