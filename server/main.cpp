@@ -71,6 +71,7 @@ void Run(const ServerConfig& config, const SettingsReader& reread) {
 }  // namespace choreo
 
 int main(int argc, char** argv) {
+  choreo::OpenStandardStreams();
   const choreo::CommandLine command_line = choreo::ParseCommandLine(argc, argv);
   if (!command_line.config) return command_line.exit_code;
   choreo::StartLog(command_line.config->log_level, command_line.config->log_format == "json");

@@ -9,6 +9,10 @@
 /// The life of a choreod process, from its settings to its end. Only main uses it.
 namespace choreo {
 
+/// Opens /dev/null in place of closed standard streams. Call first: a socket would otherwise get
+/// their numbers, and the log would go to a client.
+void OpenStandardStreams();
+
 /// Blocks SIGTERM, SIGINT and SIGHUP until Serve handles them. Call before other threads start,
 /// because they inherit the signal mask.
 void HoldSignals();

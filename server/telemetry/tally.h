@@ -37,7 +37,7 @@ class Tally {
     ++calls_[kind];
     seconds_.try_emplace(kind, Histogram::CallSeconds()).first->second.Add(call.seconds);
     if (call.refusal) ++refusals_[static_cast<size_t>(*call.refusal)];
-    if (call.method == kInfoMethod) return;
+    if (call.method == kInfoMethod && !call.refusal) return;
     ++(call.refusal ? sum_.refused : sum_.served);
     if (call.caller.holder.empty()) return;
     Sum& own = of_holder_[call.caller.holder];
@@ -59,7 +59,7 @@ class Tally {
     return refusals_;
   }
 
-  /// Numbers of calls that dance: refused ones, and all others.
+  /// Numbers of refused calls, and of all others that dance.
   struct Sum {
     uint64_t served = 0, refused = 0;
   };
@@ -67,7 +67,7 @@ class Tally {
     const std::lock_guard lock(mutex_);
     return sum_;
   }
-  /// The numbers of one token holder's calls that dance.
+  /// The numbers of one token holder's calls.
   Sum SumOf(const std::string& holder) const {
     const std::lock_guard lock(mutex_);
     const auto found = of_holder_.find(holder);

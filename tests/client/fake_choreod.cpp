@@ -37,6 +37,7 @@ choreo::Server::Samplers Load(const std::filesystem::path& path) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  choreo::OpenStandardStreams();
   choreo::CommandLine command_line = choreo::ParseCommandLine(argc, argv);
   if (!command_line.config) return command_line.exit_code;
   choreo::ServerConfig& config = *command_line.config;

@@ -4,6 +4,7 @@
 #include <sys/socket.h>
 #include <sys/stat.h>
 #include <sys/un.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -17,9 +18,9 @@
 
 #include "client/choreo_client.h"
 #include "server/connections/listener.h"
+#include "server/serve.h"
 #include "tests/server/fixture.h"
 #include "tests/support/certificates.h"
-#include "tests/support/expect_error.h"
 #include "tests/support/shell.h"
 #include "tests/support/temporary_folder.h"
 
@@ -286,15 +287,37 @@ TEST_F(ServeTest, ABadFolderOfModelsIsMisuse) {
 }
 
 TEST_F(ServeTest, CountsAllRefusals) {
-  Start("--max-waiting 1");
+  const std::string tokens = (folder_ / "tokens").string(), token = (folder_ / "token").string();
+  std::ofstream(tokens) << "ca978112ca1bbdcafac231b39a23dc4da786eff8147c4e72b9807785afee48bb alice";
+  std::ofstream(token) << "a";
+  Start("--tokens '" + tokens + "'");
   AwaitListening();
-  const client::Client client({.addresses = {address()}, .retry_s = 0});
+  const client::Client client({.addresses = {address()}, .token_file = token, .retry_s = 0});
   client.GetServerInfo();
   client.GenerateTransition({.frames = 5});
-  ExpectError(ErrorCode::kResourceExhausted, "transitions are in progress",
-              [&] { client.GenerateTransition({.frames = 5, .candidates = 9}); });
+  const client::Client stranger({.addresses = {address()}, .retry_s = 0});
+  EXPECT_THROW(stranger.GenerateTransition({.frames = 5}), Error);
+  EXPECT_THROW(stranger.GetServerInfo(), Error);
   Send(SIGTERM);
-  EXPECT_THAT(End().said, HasSubstr("served 1 call (1 refused) with 5 frames"));
+  EXPECT_THAT(End().said, HasSubstr("served 1 call (2 refused) with 5 frames"));
+}
+
+// Else a client's connection gets the number of a closed stream, and the log with it.
+TEST(StandardStreamsTest, AreOpenedIfTheyAreClosed) {
+  const pid_t child = fork();
+  if (child == 0) {
+    using Stat = struct stat;
+    Stat null{}, stream{};
+    for (int fd = 0; fd <= STDERR_FILENO; ++fd) close(fd);
+    OpenStandardStreams();
+    bool good = stat("/dev/null", &null) == 0;
+    for (int fd = 0; fd <= STDERR_FILENO; ++fd)
+      good &= fstat(fd, &stream) == 0 && stream.st_rdev == null.st_rdev;
+    _exit(good ? 0 : 1);
+  }
+  int status = -1;
+  waitpid(child, &status, 0);
+  EXPECT_EQ(status, 0);
 }
 
 TEST_F(ServeTest, StopsAtOnceWhenSignalledTwice) {
