@@ -19,6 +19,7 @@
 
 #include "model/core/counted.h"
 #include "model/core/error.h"
+#include "model/core/limits.h"
 #include "model/core/threads.h"
 #include "network/protocol.h"
 #include "server/accept_guard.h"
@@ -167,7 +168,8 @@ struct Server::Impl {
         config(WithStreams(given, default_streams)),
         serving(std::move(queues), LimitsOf(config), SharesOf(config), config.tokens,
                 static_cast<size_t>(config.outbox_kib) << 10,
-                int64_t{config.max_file_music_mib} << 20, config.io_threads, time),
+                int64_t{config.max_file_music_mib} << 20,
+                std::min(kMaxCandidates, config.max_waiting), config.io_threads, time),
         service(serving),
         resets(kWaitingCalls * CallsOfConnection(config),
                [this](const std::string& peer) { handshakes.Began(peer); }),

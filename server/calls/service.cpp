@@ -114,7 +114,7 @@ void ChoreographyService::Describe(v1::GetServerInfoResponse* response) const {
   limits->set_max_after_poses(kMaxAfterPoses);
   limits->set_max_keyframes(kMaxKeys);
   limits->set_max_transition_frames(kMaxTransitionFrames);
-  limits->set_max_candidates(kMaxCandidates);
+  limits->set_max_candidates(serving_.max_candidates);
   limits->set_max_frame_rate(kMaxOutputFps);
   FillLimits(serving_.calls.limits(), limits);
   int workers = 0;

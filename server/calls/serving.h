@@ -22,7 +22,8 @@ namespace choreo {
 struct Serving {
   Serving(std::vector<std::unique_ptr<SampleQueue>> queues, const CallLimits& limits,
           const FrameShares& shares, std::filesystem::path tokens_file, size_t outbox_limit,
-          int64_t file_music_bytes, int io_threads, const TimeSource& time = TimeSource::System())
+          int64_t file_music_bytes, int candidates, int io_threads,
+          const TimeSource& time = TimeSource::System())
       : calls(limits, time),
         frames(
             shares, [this](const std::string& caller) { return calls.HasRival(caller); }, &cost,
@@ -30,6 +31,7 @@ struct Serving {
         tokens(std::move(tokens_file)),
         outbox_bytes(outbox_limit),
         file_music(file_music_bytes),
+        max_candidates(candidates),
         models(std::move(queues)),
         decoding(io_threads),
         tasks(io_threads) {}
@@ -48,6 +50,7 @@ struct Serving {
   Reloads reloads;
   const size_t outbox_bytes;
   MusicBudget file_music;
+  const int max_candidates;  ///< of one transition, 1..kMaxCandidates
   // Last, because their threads use all members above.
   Models models;
   TaskPool decoding;  ///< decodes music files, which is slow, so that other calls do not wait

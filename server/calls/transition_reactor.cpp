@@ -39,7 +39,8 @@ class TransitionSession final : public CallSession<v1::GenerateTransitionRespons
       if (!message.has_config()) throw InvalidArgument("config", "missing");
       queue_ = serving_.models.Find(message.config().model(), "config.model");
       // Checks before decoding, so that an invalid request costs no decoding.
-      ValidGroup request = ToGroupRequest(message, queue_->model(), Serving::FreshSeed());
+      ValidGroup request =
+          ToGroupRequest(message, queue_->model(), Serving::FreshSeed(), serving_.max_candidates);
       Name(queue_->model(), request->seed);
       serving_.frames.ReserveTransition(this, *queue_, caller_name(),
                                         request->candidates * request->frames);

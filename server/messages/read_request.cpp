@@ -103,7 +103,7 @@ ValidDance ToDanceConfig(const v1::DanceConfig& message, const ModelInfo& model,
 }
 
 ValidGroup ToGroupRequest(const v1::GenerateTransitionRequest& message, const ModelInfo& model,
-                          uint64_t fresh_seed) {
+                          uint64_t fresh_seed, int max_candidates) {
   if (!message.has_config()) throw InvalidArgument("config", "missing");
   GroupRequest request;
   FillCommon(message.config(), model, fresh_seed, &request);
@@ -116,7 +116,7 @@ ValidGroup ToGroupRequest(const v1::GenerateTransitionRequest& message, const Mo
     throw InvalidArgument("config.reject_invalid_keys", "is for StreamDance");
   request.frames = message.frames();
   request.candidates = std::max(
-      1, static_cast<int>(CheckedIn(message.candidates(), 0, kMaxCandidates, "candidates")));
+      1, static_cast<int>(CheckedIn(message.candidates(), 0, max_candidates, "candidates")));
   switch (message.rank_by()) {
     case v1::RANK_BY_UNSPECIFIED:
     case v1::RANK_BY_QUALITY:

@@ -20,9 +20,10 @@ ValidDance ToDanceConfig(const v1::DanceConfig& config, const ModelInfo& model,
                          uint64_t fresh_seed);
 
 /// Converts GenerateTransition's request, except for music files, which are decoded later
-/// (server/messages/music_file.h). Uses `fresh_seed` if the message has no seed.
+/// (server/messages/music_file.h). Uses `fresh_seed` if the message has no seed. `max_candidates`:
+/// in [1, kMaxCandidates]; more could never be made at the same time.
 ValidGroup ToGroupRequest(const v1::GenerateTransitionRequest& request, const ModelInfo& model,
-                          uint64_t fresh_seed);
+                          uint64_t fresh_seed, int max_candidates);
 
 /// Reads the samples of a checked format, which is not that of files, interleaved. Errors are in
 /// "audio.data".

@@ -29,11 +29,11 @@ struct ServerConfig {
   std::filesystem::path models;    ///< a folder of checkpoints instead (ModelFolder); empty: none
   std::string device = "auto";     ///< auto, cpu, or cuda:N[,N...]
   std::string engine = "auto";     ///< one of kEngineKindNames
-  int max_waiting = 128;           ///< concurrent transitions of GenerateTransition, per model
-  int max_streams = 0;  ///< concurrent calls; more are refused. 0: depends on the number of cores
-  int workers = 0;      ///< on the CPU, per model; 0: one per usable core
-  int threads = 1;      ///< per matrix product; part of the fingerprint
-  int io_threads = 2;   ///< for decoding files; the same number again analyses long music
+  int max_waiting = 128;  ///< concurrent transitions of GenerateTransition, per model; at least 1
+  int max_streams = 0;    ///< concurrent calls; more are refused. 0: depends on the number of cores
+  int workers = 0;        ///< on the CPU, per model; 0: one per usable core
+  int threads = 1;        ///< per matrix product; part of the fingerprint
+  int io_threads = 2;     ///< for decoding files; the same number again analyses long music
   double drain_seconds = 20;  ///< for streams to finish after SIGTERM
   int outbox_kib = 256;  ///< of answers that may wait for a slow client before its dance pauses
   int max_file_music_mib = 1024;  ///< of incomplete music files, over all calls

@@ -25,7 +25,7 @@ struct NumberSetting {
 constexpr double kDay = 86'400;
 using Config = ServerConfig;
 constexpr std::array kNumbers = {
-    NumberSetting{"--max-waiting", [](const Config& c) -> double { return c.max_waiting; }, 0,
+    NumberSetting{"--max-waiting", [](const Config& c) -> double { return c.max_waiting; }, 1,
                   65536, true},
     NumberSetting{"--max-streams", [](const Config& c) -> double { return c.max_streams; }, 0,
                   kMostStreams, true},

@@ -63,7 +63,8 @@ void AddOptions(CLI::App& app, ServerConfig& config, RereadSettings& reread) {
       ->capture_default_str();
   app.add_option("--max-waiting", config.max_waiting,
                  "Most transitions of GenerateTransition in progress or waiting, for each model; "
-                 "candidates count, not calls. More are refused (RESOURCE_EXHAUSTED).")
+                 "candidates count, not calls. More are refused (RESOURCE_EXHAUSTED). One call may "
+                 "have as many candidates, at most 32.")
       ->envname("CHOREO_MAX_WAITING")
       ->capture_default_str();
   Reread<&ServerConfig::max_streams>(

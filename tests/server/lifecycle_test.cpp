@@ -39,7 +39,7 @@ class LifecycleTest : public ServerTest {
 };
 
 TEST_F(LifecycleTest, CancelledDanceFreesItsPlace) {
-  Start(/*workers=*/1, [](ServerConfig& config) { config.max_waiting = 0; });
+  Start(/*workers=*/1, [](ServerConfig& config) { config.max_waiting = 1; });
   for (int round = 0; round < 3; ++round) {
     const auto client = OpenEndedDance();
     ASSERT_TRUE(client->ReadFrames(10));
@@ -104,12 +104,31 @@ TEST_F(LifecycleTest, TransitionsBeyondTheirRoomAreRefused) {
   v1::GenerateTransitionRequest request;
   *request.mutable_config() = Config();
   request.set_frames(5);
-  request.set_candidates(4);
+  request.set_candidates(3);
+  probe->Close();
+  std::jthread other([&] { EXPECT_TRUE(Generate(request).status.ok()); });
+  ExpectEventually([this] { return server->transitions() == 3; }, "there is no room");
   const grpc::Status refused = Generate(request).status;
   EXPECT_EQ(refused.error_code(), grpc::StatusCode::RESOURCE_EXHAUSTED);
   EXPECT_TRUE(DetailsOf(refused).retry_info);
-  request.set_candidates(3);
-  EXPECT_TRUE(Generate(request).status.ok());
+  probe->Open();
+}
+
+// No retry helps a transition with more candidates than there is ever room for.
+TEST_F(LifecycleTest, CandidatesBeyondAllRoomAreInvalid) {
+  Start(/*workers=*/1, [](ServerConfig& config) { config.max_waiting = 3; });
+  v1::GenerateTransitionRequest request;
+  *request.mutable_config() = Config();
+  request.set_frames(5);
+  request.set_candidates(4);
+  const grpc::Status refused = Generate(request).status;
+  EXPECT_EQ(refused.error_code(), grpc::StatusCode::INVALID_ARGUMENT);
+  EXPECT_EQ(refused.error_message(), "candidates: 4 is not in [0, 3]");
+  EXPECT_FALSE(DetailsOf(refused).retry_info);
+  grpc::ClientContext context;
+  v1::GetServerInfoResponse info;
+  ASSERT_TRUE(stub().GetServerInfo(&context, {}, &info).ok());
+  EXPECT_EQ(info.limits().max_candidates(), 3);
 }
 
 // The client reads nothing: HTTP/2 and the outbox fill, and the dance pauses. Then it reads all.

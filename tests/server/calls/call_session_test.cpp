@@ -51,7 +51,7 @@ class CallSessionTest : public testing::Test {
     session.outbox().Send(response);
   }
 
-  Serving serving{OneModel(), CallLimits{}, FrameShares{}, "", kOutboxBytes, 0, 1};
+  Serving serving{OneModel(), CallLimits{}, FrameShares{}, "", kOutboxBytes, 0, 1, 1};
   SlowWire wire;
   Session session{serving, &wire, "StreamDance", Caller{}};
   std::shared_ptr<PausedOrNot> dance = std::make_shared<PausedOrNot>();
@@ -67,7 +67,7 @@ TEST_F(CallSessionTest, ARevokedTokenEndsTheCallAfterTwoSeconds) {
   const auto write = [&](const std::string& lines) { std::ofstream(file) << lines; };
   write(alice + bob);
   AdvancedClock clock;
-  Serving reloading{OneModel(), CallLimits{}, FrameShares{}, file, kOutboxBytes, 0, 1, clock};
+  Serving reloading{OneModel(), CallLimits{}, FrameShares{}, file, kOutboxBytes, 0, 1, 1, clock};
   Session hers{reloading, &wire, "StreamDance", Caller{}};
   ASSERT_TRUE(hers.Authenticate("Bearer a"));
   const auto dances_after = [&](std::chrono::seconds time) {

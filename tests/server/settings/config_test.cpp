@@ -198,8 +198,8 @@ INSTANTIATE_TEST_SUITE_P(
         BadSetting{"--tokens", "/tmp"}, BadSetting{"--tokens", "/dev/zero"},
         BadSetting{"--checkpoint", "/dev/null"}, BadSetting{"--device", "gpu"},
         BadSetting{"--log-level", "loud"}, BadSetting{"--checkpoint", "/nonexistent.safetensors"},
-        BadSetting{"--drain-seconds", "-3"}, BadSetting{"--max-connection-seconds", "2073601"},
-        BadSetting{"--frobnicate", "1"}));
+        BadSetting{"--max-waiting", "0"}, BadSetting{"--drain-seconds", "-3"},
+        BadSetting{"--max-connection-seconds", "2073601"}, BadSetting{"--frobnicate", "1"}));
 
 // Whoever collects JSON lines must get no other lines.
 TEST(ServerConfigTest, ErrorsAreJsonWhereTheLogIs) {
