@@ -123,10 +123,8 @@ void CheckAddresses(const ServerConfig& config, FaultList* faults) {
 void CheckSecrets(const ServerConfig& config, FaultList* faults) {
   faults->Try([&] {
     if (config.tls_certificate.empty()) return;
-    const CertificateFiles certificate(config);
-    if (!config.check) return;
-    certificate.LogExpiry();  // as the server itself does
-    certificate.RequireUnexpired();
+    CertificateFiles certificate(config);
+    if (config.check) certificate.LogExpiry();  // as the server itself does
   });
   faults->Try([&] { const Tokens tokens(config.tokens); });
 }
@@ -138,6 +136,8 @@ void HandOn(int signal, siginfo_t* /*info*/, void* context) {
   kill(getpid(), signal);
 }
 
+}  // namespace
+
 void OpenStandardStreams() {
   int fd = 0;
   do {
@@ -145,8 +145,6 @@ void OpenStandardStreams() {
   } while (fd >= 0 && fd <= STDERR_FILENO);
   if (fd > STDERR_FILENO) close(fd);
 }
-
-}  // namespace
 
 void HoldSignals() {
   signal(SIGPIPE, SIG_IGN);  // a log without a reader must not end the process

@@ -47,6 +47,7 @@ CertificateFiles::Content CertificateFiles::Read() const {
 }
 
 std::optional<bool> CertificateFiles::Refresh() {
+  TellOfExpired();
   try {
     Content now = Read();
     const bool has_new_pair = now.pair != used_.pair,
@@ -82,21 +83,23 @@ std::optional<bool> CertificateFiles::Refresh() {
   }
 }
 
-void CertificateFiles::RequireUnexpired() const {
-  RequireValid("--tls-cert", certificate_, expires_);
-  if (needs_client_ca_) RequireValid("--tls-client-ca", client_ca_source_, used_.client_ca_expires);
+void CertificateFiles::TellOfExpired() {
+  const auto tell = [](const char* field, int64_t expires, const char* effect, int64_t* told) {
+    if (!HasExpired(expires) || std::exchange(*told, expires) == expires) return;
+    spdlog::warn("{}: expired on {}; {}", field, Date(expires), effect);
+  };
+  tell("--tls-cert", expires_, "clients refuse it", &told_);
+  if (needs_client_ca_)
+    tell("--tls-client-ca", used_.client_ca_expires, "no client is admitted", &told_of_ca_);
 }
 
-void CertificateFiles::LogExpiry() const {
-  const auto log = [](const char* field, int64_t expires, const char* effect) {
-    if (HasExpired(expires)) {
-      spdlog::warn("{}: expired on {}; {}", field, Date(expires), effect);
-    } else {
-      spdlog::info("{}: valid until {}", field, Date(expires));
-    }
+void CertificateFiles::LogExpiry() {
+  TellOfExpired();
+  const auto log = [](const char* field, int64_t expires) {
+    if (!HasExpired(expires)) spdlog::info("{}: valid until {}", field, Date(expires));
   };
-  log("--tls-cert", expires_, "clients refuse it");
-  if (needs_client_ca_) log("--tls-client-ca", used_.client_ca_expires, "no client is admitted");
+  log("--tls-cert", expires_);
+  if (needs_client_ca_) log("--tls-client-ca", used_.client_ca_expires);
 }
 
 }  // namespace choreo

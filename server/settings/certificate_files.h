@@ -19,8 +19,8 @@ class CertificateFiles {
 
   /// Rereads the files; call regularly. Returns whether a change was usable, or none without a
   /// change. Reports a fault once it has seen it twice: files that are replaced one by one do not
-  /// match for a moment. Logs changes and faults once. An expired certificate does not replace
-  /// another.
+  /// match for a moment. Logs changes and faults once, and once that a file in use has expired. An
+  /// expired certificate does not replace another.
   std::optional<bool> Refresh();
 
   /// The certificate chain and the key, in one file so that they always match.
@@ -33,10 +33,9 @@ class CertificateFiles {
   /// When the last client CA expires: from then on no client is admitted. Seconds since 1970; 0 if
   /// clients need no certificate.
   int64_t client_ca_expires() const { return used_.client_ca_expires; }
-  /// Throws Error(kInvalidArgument) for an expired file.
-  void RequireUnexpired() const;
-  /// Logs when each file expires, as a warning if it has expired.
-  void LogExpiry() const;
+  /// Logs when each file expires, as a warning if it has expired. A server with an expired file
+  /// starts, too: it may be renewed.
+  void LogExpiry();
 
  private:
   struct Content {
@@ -45,13 +44,16 @@ class CertificateFiles {
     bool operator==(const Content&) const = default;
   };
   Content Read() const;
+  /// Logs once that a file in use has expired.
+  void TellOfExpired();
 
   const std::filesystem::path certificate_, key_, client_ca_source_;
   const bool needs_client_ca_;
   Content used_;
   int64_t expires_;
   MemoryFile pair_, client_ca_;
-  std::string suspicion_, fault_;  // seen at the last Refresh; reported
+  std::string suspicion_, fault_;      // seen at the last Refresh; reported
+  int64_t told_ = 0, told_of_ca_ = 0;  // the reported expiries of files in use
 };
 
 }  // namespace choreo

@@ -114,8 +114,9 @@ void AddOptions(CLI::App& app, ServerConfig& config, RereadSettings& reread) {
       ->envname("CHOREO_KERNELS");
   // Only available on the command line: a variable or a file must not keep a server from serving.
   app.add_flag("--check", config.check,
-               "Read settings, models, certificates and tokens as at start, print \"ok\" or what "
-               "is wrong, and exit. Use it before a restart, beside the running server.")
+               "Read settings, models, certificates and tokens as at start, print \"ok\" or a line "
+               "for each fault, and exit. Use it before a restart, beside the running server: an "
+               "address in use is no fault. An expired certificate is a warning, as at start.")
       ->configurable(false);
   // CLI11 reads variables only after the file, so this variable must be set as the option's
   // default.

@@ -83,6 +83,22 @@ TEST_F(TlsTest, AnExpiredCertificateIsTold) {
   EXPECT_THAT(log.text(), HasSubstr("--tls-cert: expired on "));
 }
 
+TEST_F(TlsTest, AFileThatExpiresInUseIsToldOnce) {
+  const LogCapture log;
+  const Certificate late = authority_.IssueExpired("late");
+  ServerConfig config;
+  Serve(late, config);
+  config.tls_client_ca = late.certificate;
+  CertificateFiles files(config);
+  EXPECT_EQ(log.text(), "");
+  for (int i = 0; i < 2; ++i) EXPECT_EQ(files.Refresh(), std::nullopt);
+  for (const std::string setting : {"--tls-cert", "--tls-client-ca"}) {
+    const size_t at = log.text().find("[warning] " + setting + ": expired on 20");
+    EXPECT_NE(at, std::string::npos);
+    EXPECT_EQ(log.text().find(setting + ": ", at + 20), std::string::npos) << "told once";
+  }
+}
+
 TEST_F(TlsTest, TheStartTellsHowLongFilesAreValid) {
   const LogCapture log;
   const Certificate own = authority_.Issue("own");
