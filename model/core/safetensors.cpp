@@ -5,12 +5,14 @@
 
 #include <algorithm>
 #include <bit>
+#include <cerrno>
 #include <cmath>
 #include <cstdio>
 #include <fstream>
 #include <iterator>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <system_error>
 
 #include "model/core/atomic_file.h"
 #include "model/core/error.h"
@@ -53,7 +55,10 @@ class SafetensorsReader {
  public:
   explicit SafetensorsReader(const std::filesystem::path& path)
       : name_(path.string()), file_(path, std::ios::binary) {
-    if (!file_) throw Error(ErrorCode::kNotFound, name_, "no such file, or it can't be read");
+    if (!file_) {
+      throw Error(ErrorCode::kNotFound, name_,
+                  "cannot be opened: " + std::generic_category().message(errno));
+    }
     file_bytes_ = std::filesystem::file_size(path);
   }
 

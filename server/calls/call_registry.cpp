@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "model/core/counted.h"
 #include "server/messages/refusal.h"
 
 namespace choreo {
@@ -16,8 +17,9 @@ constexpr std::chrono::seconds kThere{60};
 const char* const kGoingAway = "the server is draining; try another one";
 
 Refused Full(int calls, int most) {
-  return {Refusal::kStreams, "the server is full: " + std::to_string(calls) +
-                                 " calls are in progress, of at most " + std::to_string(most)};
+  return {Refusal::kStreams, "the server is full: " + Counted(calls, "call") +
+                                 (calls == 1 ? " is" : " are") + " in progress, of at most " +
+                                 std::to_string(most)};
 }
 
 std::string Seconds(std::chrono::milliseconds limit) {
@@ -42,9 +44,9 @@ void CallRegistry::Enter(const std::shared_ptr<Call>& call, std::string caller) 
   if (calls >= most) {
     // A caller that may use all places has no limit of its own.
     if (most >= limits_.calls) throw Full(calls, limits_.calls);
-    throw Refused(Refusal::kStreamsOfPeer, caller + " has " + std::to_string(calls) +
-                                               " calls in progress, of at most " +
-                                               std::to_string(most) + " for one caller");
+    throw Refused(Refusal::kStreamsOfPeer, caller + " has " + Counted(calls, "call") +
+                                               " in progress, of at most " + std::to_string(most) +
+                                               " for one caller");
   }
   ++of_caller_[caller];
   calls_.emplace(call.get(), Entry{call, std::move(caller), time_.Now()});

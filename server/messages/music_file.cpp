@@ -12,10 +12,10 @@ namespace choreo {
 void MusicBudget::Reserve(int64_t bytes) {
   const std::lock_guard lock(mutex_);
   if (bytes > bytes_ - reserved_) {
-    throw Refused(Refusal::kFileMusic, "the server is full: incomplete music files hold " +
-                                           std::to_string(reserved_) + " bytes, this one needs " +
-                                           std::to_string(bytes) + " more, at most " +
-                                           std::to_string(bytes_) + " are allowed in all");
+    throw Refused(Refusal::kFileMusic,
+                  "the server is full: incomplete music files hold " + std::to_string(reserved_) +
+                      " bytes, this one needs " + std::to_string(bytes) + " more, at most " +
+                      std::to_string(bytes_) + " are allowed in all (--max-file-music-mib)");
   }
   reserved_ += bytes;
 }

@@ -154,16 +154,20 @@ bool WantsJson(int argc, const char* const* argv) {
   return variable != nullptr && std::string_view(variable) == "json";
 }
 
-// "FILE:LINE: " if `error`, "--NAME: ...", concerns a setting from the file that the command line
-// does not override.
-std::string PlaceInFile(const std::string& error, const TomlFile& file, int argc,
-                        const char* const* argv) {
+// Where the setting of `error`, "--NAME: ...", comes from: "FILE:LINE: " for the file, "VARIABLE: "
+// for the environment. Empty if the command line has it, or nothing.
+std::string PlaceOf(const std::string& error, const CLI::App& app, const TomlFile& file, int argc,
+                    const char* const* argv) {
   const std::string flag = error.substr(0, error.find(':'));
   if (!flag.starts_with("--")) return "";
   const bool is_overridden = std::any_of(argv, argv + argc, [&](const std::string& word) {
     return word == flag || word.starts_with(flag + '=');
   });
-  return is_overridden ? "" : file.PlaceOf(flag.substr(2));
+  if (is_overridden) return "";
+  if (std::string place = file.PlaceOf(flag.substr(2)); !place.empty()) return place;
+  const CLI::Option* option = app.get_option_no_throw(flag);
+  const std::string variable = option == nullptr ? "" : option->get_envname();
+  return variable.empty() || std::getenv(variable.c_str()) == nullptr ? "" : variable + ": ";
 }
 
 std::map<std::string, std::string> GivenIn(const CLI::App& app) {
@@ -204,9 +208,9 @@ class Reading {
       config.reflection = config.tls_certificate.empty() && config.tokens.empty();
     config.given = GivenIn(app_);
     config.overridden = file_->overridden();
-    for (const auto& [flag, value] : config.given) {
-      if (std::ranges::find(config.overridden, flag) == config.overridden.end())
-        config.places["--" + flag] = file_->PlaceOf(flag);
+    for (const auto& [name, value] : config.given) {
+      const std::string flag = "--" + name;
+      config.places[flag] = PlaceOf(flag, app_, *file_, argc_, argv_);
     }
   } catch (const Error& error) {
     throw Placed(error.what());
@@ -229,7 +233,7 @@ class Reading {
 
   Error Placed(const std::string& what) const {
     std::vector<std::string> faults = FaultsIn(what);
-    for (std::string& fault : faults) fault.insert(0, PlaceInFile(fault, *file_, argc_, argv_));
+    for (std::string& fault : faults) fault.insert(0, PlaceOf(fault, app_, *file_, argc_, argv_));
     return {ErrorCode::kInvalidArgument, "", Joined(faults, std::identity(), "\n")};
   }
 

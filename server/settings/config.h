@@ -62,10 +62,10 @@ struct ServerConfig {
   std::map<std::string, std::string> given;
   /// Settings in the file of --config that flags override.
   std::vector<std::string> overridden;
-  /// "FILE:LINE: " of the settings that the file has set, by flag.
+  /// "FILE:LINE: " or "VARIABLE: " of the settings that the file or a variable has set, by flag.
   std::map<std::string, std::string> places;
 
-  /// The fault of a setting, "--device: ...", behind its place in the file, if it is from there.
+  /// The fault of a setting, "--device: ...", behind its place, unless it is a flag.
   std::string Placed(const std::string& fault) const;
 
   /// `metrics` as HOST:PORT; a port alone means this machine.

@@ -2,17 +2,25 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstdint>
 #include <string_view>
 
 #include "model/core/error.h"
 #include "model/core/nearest.h"
+#include "model/core/rounded.h"
 #include "model/core/threads.h"
 #include "server/messages/music_file.h"
 
 namespace choreo {
 namespace {
 
-using CLI::detail::to_string;
+/// A number as people write it, 1000000 rather than 1e+06.
+std::string Shown(double value) {
+  constexpr double kExact = 1e15;
+  const bool is_whole = std::abs(value) < kExact && value == std::floor(value);
+  return is_whole ? std::to_string(static_cast<int64_t>(value)) : InFull(value);
+}
 
 /// A numeric setting.
 struct NumberSetting {
@@ -61,7 +69,7 @@ constexpr std::array kNumbers = {
 };
 
 std::string RangeOf(const NumberSetting& setting) {
-  return '[' + to_string(setting.least) + ", " + to_string(setting.most) + ']';
+  return '[' + Shown(setting.least) + ", " + Shown(setting.most) + ']';
 }
 
 /// "Could not convert: --workers = many"
@@ -101,7 +109,7 @@ void CheckNumbers(const ServerConfig& config, FaultList* faults) {
   for (const NumberSetting& setting : kNumbers) {
     const double value = setting.of(config);
     if (value >= setting.least && value <= setting.most) continue;
-    faults->Add(InvalidArgument(setting.flag, to_string(value) + " is not in " + RangeOf(setting)));
+    faults->Add(InvalidArgument(setting.flag, Shown(value) + " is not in " + RangeOf(setting)));
   }
   // Above this bound the setting would limit nothing.
   if (config.max_streams > 0 && config.max_streams_of_peer > config.max_streams) {

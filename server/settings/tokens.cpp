@@ -71,6 +71,7 @@ void Tokens::WarnOfRawToken(std::string_view token, const Holders& holders) cons
 
 Tokens::Content Tokens::Parse(const std::string& text) {
   Content content;
+  content.is_marked = text.starts_with("\xEF\xBB\xBF");
   std::istringstream lines(text);
   std::string line;
   std::map<Hash, std::pair<std::string, int>> seen;  // name and line of each hash
@@ -100,6 +101,8 @@ Error Tokens::Faults(const Content& content) const {
   if (!content.bad_lines.empty())
     faults.push_back("line " + content.bad_lines +
                      ": not \"SHA256 NAME\" with 64 hexadecimal digits");
+  if (content.is_marked)
+    faults.push_back("line 1 begins with a byte order mark: save the file as UTF-8 without one");
   if (!content.twins.empty())
     faults.push_back("lines " + content.twins + ": the same token under two names");
   return InvalidArgument("--tokens", file_.string() + ' ' + Joined(faults, std::identity(), "; "));
@@ -145,6 +148,9 @@ grpc::Status Tokens::FindHolder(std::string_view authorization, std::string* hol
   }
   if (found == nullptr) {
     WarnOfRawToken(authorization, *all);
+    // No other token would help.
+    if (IsClosed())
+      return Unauthenticated("the server cannot read its tokens, and admits nobody until it can");
     return SendToken("that token is unknown");
   }
   *holder = found->name;
@@ -158,6 +164,11 @@ bool Tokens::IsRevoked(const Hash& hash) const {
   return !closed_ && std::ranges::none_of(*holders_, [&](const Holder& one) {
     return CRYPTO_memcmp(one.hash.data(), hash.data(), hash.size()) == 0;
   });
+}
+
+bool Tokens::IsClosed() const {
+  const std::lock_guard lock(mutex_);
+  return closed_;
 }
 
 void Tokens::Replace(Holders holders) {

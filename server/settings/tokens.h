@@ -61,8 +61,9 @@ class Tokens {
 
   struct Content {
     Holders holders;
-    std::string bad_lines;  // "2, 7"; empty: none
-    std::string twins;      // "2 and 7", the first lines of one hash and two names; empty: none
+    std::string bad_lines;   // "2, 7"; empty: none
+    std::string twins;       // "2 and 7", the first lines of one hash and two names; empty: none
+    bool is_marked = false;  // begins with a byte order mark, which makes line 1 bad
     bool good() const { return bad_lines.empty() && twins.empty(); }
   };
 
@@ -75,6 +76,7 @@ class Tokens {
   void Replace(Holders holders);
   /// Admits nobody, while the file is unreadable.
   void Close();
+  bool IsClosed() const;
   /// Warns if the file contains this token in place of its hash; the two may look alike.
   void WarnOfRawToken(std::string_view token, const Holders& holders) const;
 

@@ -146,7 +146,8 @@ TEST_F(TokensTest, AnUnreadableFileEndsNoDance) {
   EXPECT_FALSE(tokens.IsRevoked(hash));
   std::filesystem::remove(folder_ / "tokens");
   EXPECT_EQ(tokens.Refresh(), false);
-  EXPECT_FALSE(tokens.FindHolder("Bearer a", &holder).ok());
+  EXPECT_THAT(tokens.FindHolder("Bearer a", &holder).error_message(),
+              HasSubstr("the server cannot read its tokens"));
   EXPECT_FALSE(tokens.IsRevoked(hash));
   Write("tokens", LineOf("b", "bob"));
   EXPECT_EQ(tokens.Refresh(), true);
@@ -208,7 +209,7 @@ TEST_F(TokensTest, EachHolderHasItsOwnPlaces) {
   ASSERT_TRUE(dance->Next());
   ExpectError(ErrorCode::kResourceExhausted,
               server->address() +
-                  ": holder \"alice\" has 1 calls in progress, of at most 1 for one caller; it "
+                  ": holder \"alice\" has 1 call in progress, of at most 1 for one caller; it "
                   "asks to try again in ",
               [&] { alice.GenerateTransition({.frames = 5}); });
   Write("bobs", "b\n");
@@ -280,6 +281,9 @@ TEST_F(TokensTest, EmptyTokensAreRefused) {
 TEST_F(TokensTest, FilesThatCannotBeUsedAreNamed) {
   Write("tokens", LineOf("a", "alice") + "0123 bob\n");
   ExpectError(ErrorCode::kInvalidArgument, "tokens line 2",
+              [&] { Start([&](ServerConfig& config) { config.tokens = folder_ / "tokens"; }); });
+  Write("tokens", "\xEF\xBB\xBF" + LineOf("a", "alice"));
+  ExpectError(ErrorCode::kInvalidArgument, "line 1 begins with a byte order mark",
               [&] { Start([&](ServerConfig& config) { config.tokens = folder_ / "tokens"; }); });
   Write("tokens", "junk line here\n");
   ExpectError(ErrorCode::kInvalidArgument, "tokens line 1",

@@ -180,7 +180,7 @@ TEST_F(CommandTest, ALiveDanceNamesAFullServerItsLimitAndWhenToComeAgain) {
   for (const std::string begin : {"note: ", "choreo: "}) {
     EXPECT_THAT(outcome.said,
                 testing::ContainsRegex(begin + server.address() +
-                                       ": the server is full: 1 calls are in progress, of at most "
+                                       ": the server is full: 1 call is in progress, of at most "
                                        "1; it asks to try again in [0-9]+ s"));
   }
 }

@@ -233,6 +233,24 @@ TEST(ServerConfigTest, NamesEachOfSeveralFaults) {
   EXPECT_EQ(std::ranges::count(said, '\n'), 5) << said;
 }
 
+// A flag overrides the variable.
+TEST(ServerConfigTest, NamesTheVariableOfABadValue) {
+  const auto said = [](const std::vector<const char*>& arguments) {
+    testing::internal::CaptureStderr();
+    EXPECT_EQ(Parse(arguments).exit_code, 2);
+    return testing::internal::GetCapturedStderr();
+  };
+  ::setenv("CHOREO_WORKERS", "many", 1);
+  ::setenv("CHOREO_MAX_NETWORK_MIB", "2000000", 1);
+  EXPECT_EQ(said({}),
+            "choreod: CHOREO_WORKERS: --workers: \"many\" is not a whole number in [0, 1024]\n"
+            "choreod: CHOREO_MAX_NETWORK_MIB: --max-network-mib: 2000000 is not in [64, "
+            "1048576]\n");
+  ::unsetenv("CHOREO_MAX_NETWORK_MIB");
+  EXPECT_EQ(said({"--workers=1000000"}), "choreod: --workers: 1000000 is not in [0, 1024]\n");
+  ::unsetenv("CHOREO_WORKERS");
+}
+
 // A fault that ends CLI11's reading hides no other.
 TEST(ServerConfigTest, NamesFaultsBesideThoseOfCli11) {
   const std::string path = testing::TempDir() + "choreod_config_all_test.toml";
@@ -276,8 +294,8 @@ TEST(ServerConfigTest, RefusesAnEmptyFileName) {
   ::unsetenv("CHOREO_TOKENS");
   const std::string message = testing::internal::GetCapturedStderr();
   EXPECT_EQ(message, "choreod: " + path +
-                         ":1: --tokens: is empty; leave it out for none\nchoreod: --tokens: is "
-                         "empty; leave it out for none\n");
+                         ":1: --tokens: is empty; leave it out for none\nchoreod: "
+                         "CHOREO_TOKENS: --tokens: is empty; leave it out for none\n");
 }
 
 TEST(ServerConfigTest, ListsValidChoices) {
