@@ -27,7 +27,7 @@ TEST_F(HealthTest, ServesUntilItDrains) {
   // Its description is still available.
   const Outcome seen = Choreo("info" + Server());
   EXPECT_EQ(seen.code, 0) << seen.said;
-  EXPECT_THAT(seen.said, testing::HasSubstr("1 calls in progress"));
+  EXPECT_THAT(seen.said, testing::HasSubstr("1 call in progress"));
   EXPECT_THAT(seen.said, testing::HasSubstr("note: the server drains: it takes no new dances"));
   EXPECT_THAT(Choreo("info --json" + Server()).said, testing::HasSubstr("\"draining\": true"));
   dance->Cancel();

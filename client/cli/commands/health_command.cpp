@@ -31,6 +31,8 @@ void AddHealthCommand(CLI::App& program) {
   command->get_option("--server")
       ->description("HOST:PORT of the choreod; default: " + client::Options().addresses.front() +
                     ".");
+  command->get_option("--token-file")->group("");  // kept for scripts that set it
+  command->get_option("--deadline")->description("Give up after this many seconds; 0: never.");
   auto any_certificate = std::make_shared<bool>(false);
   command->add_flag(
       "--any-certificate", *any_certificate,

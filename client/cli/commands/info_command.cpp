@@ -9,6 +9,7 @@
 #include "client/cli/commands/commands.h"
 #include "client/cli/options/connection.h"
 #include "client/describe_styles.h"
+#include "model/core/counted.h"
 #include "model/motion/controls.h"
 
 namespace choreo::cli {
@@ -157,8 +158,9 @@ void PrintServer(const client::ServerDescription& server, const InfoOptions& opt
     std::cout << out.dump(2) << std::endl;
     return;
   }
-  std::printf("choreod %s, %d workers, %d calls in progress, on", server.version.c_str(),
-              server.workers, server.active_streams);
+  std::printf("choreod %s, %s, %s in progress, on", server.version.c_str(),
+              Counted(server.workers, "worker").c_str(),
+              Counted(server.active_streams, "call").c_str());
   for (const std::string& device : server.devices) std::printf(" %s", device.c_str());
   std::printf("\n");
   for (const client::ModelDescription& model : server.models) {
