@@ -7,15 +7,28 @@
 
 #include "model/core/error.h"
 
-/// Limits on untrusted JSON. Both functions throw Error(kInvalidArgument) whose field is `name`,
-/// naming the limit.
+/// Limits on untrusted JSON. All functions throw Error(kInvalidArgument) whose field is `name`,
+/// naming the limit or the fault.
 namespace choreo {
 
-/// Refuses JSON that is nested deeper than our files or any glTF. Code that parses, copies or
-/// prints JSON recurses once per level, so deep nesting would overflow the stack. The parser finds
-/// other faults.
+/// Refuses bytes that are no text, such as a picture's, in which brackets mean no levels. Accepts
+/// NUL at the end, with which some programs fill up a GLB's JSON.
+inline void CheckIsText(std::string_view json, const std::string& name) {
+  const size_t end = json.find_last_not_of('\0') + 1;
+  for (size_t i = 0; i < end; ++i) {
+    const auto c = static_cast<unsigned char>(json[i]);
+    if (c >= ' ' || c == '\t' || c == '\n' || c == '\r') continue;
+    throw InvalidArgument(
+        name, "is not JSON, nor any text: byte " + std::to_string(i) + " is " + std::to_string(c));
+  }
+}
+
+/// Refuses what is no text, and JSON that is nested deeper than our files or any glTF. Code that
+/// parses, copies or prints JSON recurses once per level, so deep nesting would overflow the stack.
+/// The parser finds other faults.
 inline void CheckJsonDepth(std::string_view json, const std::string& name) {
   constexpr int kLimit = 64;
+  CheckIsText(json, name);
   int depth = 0;
   bool in_text = false;
   for (size_t i = 0; i < json.size(); ++i) {

@@ -312,7 +312,7 @@ TEST_F(ControlledCommandTest, BadPathsAreRefused) {
           "points[1].y: 3 m above the floor is not in [0, 2]");
   // So do invalid JSON, and the place of its error.
   refused("[{\"time\": 0, \"x\": 0,\n \"z\": 0}, {\"time\": 1, \"x\": NaN}]",
-          "points[1].x: is not JSON: ends too early at line 2, column 28, \"NaN\"");
+          "points[1].x: is not JSON: cannot be read at line 2, column 28, \"NaN\"");
   refused(R"([{"time": 0, "x": 1e999, "z": 0}])",
           "points[0].x: 1e999 is beyond 1.8e308, the largest number");
   refused(R"([{"time": 0, "x": 1, "x": 2, "z": 0}])", "points[0].x: is there twice");

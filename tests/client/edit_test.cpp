@@ -264,6 +264,8 @@ TEST_F(EditTest, RefusesImpossibleEdits) {
   std::ofstream(folder_ / "huge.json")
       << R"({"fps": 30.0, "keyframes": [{"id": "far", "frame": 18446744073709551615}]})";
   expect_failure(
+  expect_failure("--key kick --at 2 --report " + At("dance.npz"),
+                 "dance.npz: is not JSON, nor any text");
       "--key kick --at 2 --report " + At("huge.json"),
       "keyframes[0]: has no id, or no frame that is a whole number from 0 to 1000000000");
   std::ofstream(folder_ / "deep.json") << std::string(1'000'000, '[');

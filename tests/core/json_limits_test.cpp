@@ -27,4 +27,15 @@ TEST(JsonNumbers, RefusesDeepNesting) {
               [&] { CheckJsonNumbers(json, "skeleton"); });
 }
 
+TEST(JsonDepth, RefusesBytesThatAreNoText) {
+  const auto refused = [](const std::string& bytes, const std::string& why) {
+    ExpectError(ErrorCode::kInvalidArgument, "a.png: is not JSON, nor any text: " + why,
+                [&] { CheckJsonDepth(bytes, "a.png"); });
+  };
+  refused("\x89PNG\r\n\x1a\n", "byte 6 is 26");
+  refused(std::string(1, '\0') + std::string(100, '{'), "byte 0 is 0");
+  CheckJsonDepth("{\r\n\t\"é\": 1}", "");
+  CheckJsonDepth("{}" + std::string(2, '\0'), "");  // as some programs end a GLB's JSON
+}
+
 }  // namespace choreo::json_limits_test

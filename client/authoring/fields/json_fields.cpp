@@ -99,7 +99,8 @@ std::string DescribeBreak(std::string_view text, size_t byte) {
     if (before != std::string_view::npos && text[before] == ',')
       return "has an extra comma at " + At(text, before + 1);
   }
-  return "ends too early at " + At(text, byte) + WordAt(text, byte);
+  return (byte > text.size() ? "ends too early at " : "cannot be read at ") + At(text, byte) +
+         WordAt(text, byte);
 }
 
 void RefuseOthers(const json& object, const std::string& prefix,

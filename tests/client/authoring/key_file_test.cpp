@@ -112,6 +112,8 @@ TEST(KeyFileTest, ErrorsNameTheFieldTheValueAndTheLimit) {
     ExpectError(ErrorCode::kInvalidArgument, part, [&] { Parse(text); });
   };
   refused("{", "keys.json: is not JSON: ends too early at line 1, column 2");
+  refused("keys", "keys.json: is not JSON: cannot be read at line 1, column 1, \"keys\"");
+  refused("\x89PNG\r\n\x1a\n", "keys.json: is not JSON, nor any text");
   const std::string comma = "is not JSON: has an extra comma at line ";
   refused("{\"keyframes\": [{\"time\": 2, \"pose\": \"kick\",}]}", comma + "1, column 42");
   refused("{\"keyframes\": [{\"time\": 2},\n ]}", comma + "1, column 27");
