@@ -1,29 +1,90 @@
 #include "client/authoring/keys/key_faults.h"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "client/authoring/keys/key_file.h"
 #include "model/core/error.h"
+#include "model/core/grid.h"
 #include "model/core/rounded.h"
 #include "model/motion/kinematics.h"
+#include "model/motion/support.h"
 
 namespace choreo::authoring {
 namespace {
 
 constexpr double kJump = 0.1;  // metres: a jump's least height above the floor
+/// On the floor the pelvis is lower than this part of its height in standing: dancers jump from a
+/// bend of the knees, and land in one.
+constexpr double kOnFloor = 0.5;
+
+/// How far a pose is above where it would stand, metres; none if that is unknown.
+std::optional<double> InAir(const Pose& pose, const PoseMask& mask, const Skeleton& skeleton) {
+  const std::optional<double> standing = StandingHeight(skeleton, pose, mask);
+  if (!standing) return std::nullopt;
+  return pose.root_position.y() - *standing;
+}
 
 /// Explains why a key in the air will be danced standing on the floor, as keys without a place are;
 /// empty for other keys. Keys without a height have the rest pose's.
 std::string LostJump(const client::KeyPose& key, const Skeleton& skeleton) {
   const double height = key.pose.root_position.y();
   if (key.mask.root_position || height == skeleton.pelvis_height) return "";
-  const std::optional<double> standing = StandingHeight(skeleton, key.pose, key.mask);
-  if (!standing || height - *standing < kJump) return "";
-  return "the pose is " + Rounded(height - *standing) +
+  const std::optional<double> in_air = InAir(key.pose, key.mask, skeleton);
+  if (!in_air || *in_air < kJump) return "";
+  return "the pose is " + Rounded(*in_air) +
          " m in the air, but without a place it stands on the floor; give it one: \"place\": [x, "
          "z]";
+}
+
+/// The height of a jump, metres; 0 for a pose that is none.
+double JumpHeight(const TimedPose& one, const Skeleton& skeleton) {
+  const double in_air =
+      one.mask.root_position ? InAir(one.pose, one.mask, skeleton).value_or(0) : 0;
+  return in_air < kJump ? 0 : in_air;
+}
+
+bool IsOnFloor(const TimedPose& one, const Skeleton& skeleton) {
+  const std::optional<double> height = one.mask.root_position
+                                           ? std::optional(one.pose.root_position.y())
+                                           : StandingHeight(skeleton, one.pose, one.mask);
+  return height && *height < kOnFloor * skeleton.pelvis_height;
+}
+
+/// Describes a way from the floor into a jump, or out of one to the floor, for which the time is
+/// too short. A jump takes off and lands upright; DanceFaults knows how long the way between that
+/// and the floor takes.
+std::string JumpFault(const Skeleton& skeleton, TimedPose from, TimedPose to) {
+  const bool rises = IsOnFloor(from, skeleton);
+  const TimedPose& jump = rises ? to : from;
+  const double height = JumpHeight(jump, skeleton);
+  if (height == 0 || (!rises && !IsOnFloor(to, skeleton))) return "";
+  TimedPose upright{(rises ? "the take-off of " : "the landing of ") + jump.name, 0,
+                    RestPose(skeleton)};
+  upright.mask.joints.assign(static_cast<size_t>(skeleton.joints()), false);
+  const double flight = std::sqrt(2 * height / kGravity);
+  constexpr double kFrame = 1 / kModelFps;  // seconds: no flight leaves less than that for the way
+  upright.seconds = rises ? std::max(to.seconds - flight, from.seconds + kFrame)
+                          : std::min(from.seconds + flight, to.seconds - kFrame);
+  (rises ? to : from) = upright;
+  to.hit.reset();
+  for (const TimedFault& fault : DanceFaults(skeleton, {from, to}))
+    if (fault.pose == 1) return fault.message;
+  return "";
+}
+
+/// The faults of DanceFaults and JumpFault, by pose.
+std::vector<TimedFault> WayFaults(const Skeleton& skeleton, const std::vector<TimedPose>& poses) {
+  std::vector<TimedFault> faults = DanceFaults(skeleton, poses);
+  for (size_t i = 1; i < poses.size(); ++i) {
+    std::string fault = JumpFault(skeleton, poses[i - 1], poses[i]);
+    if (!fault.empty()) faults.push_back({i, true, std::move(fault)});
+  }
+  std::ranges::stable_sort(faults, {}, &TimedFault::pose);
+  return faults;
 }
 
 TimedPose Timed(const client::KeyPose& key, double fps) {
@@ -37,7 +98,7 @@ std::vector<client::Warning> KeyFaults(const DanceKeys& keys, double fps,
   std::vector<TimedPose> poses;
   for (const client::KeyPose& key : keys.poses) poses.push_back(Timed(key, fps));
   std::vector<client::Warning> warnings = keys.warnings;
-  for (const TimedFault& fault : DanceFaults(skeleton, poses)) {
+  for (const TimedFault& fault : WayFaults(skeleton, poses)) {
     client::Warning& warning = warnings.emplace_back();
     warning.frame = FrameOf(keys.poses[fault.pose], fps);
     const std::string place = keys.places.empty() ? "" : " (" + keys.places[fault.pose] + ")";
@@ -103,7 +164,7 @@ std::vector<client::Warning> KeyFaults(const client::KeyPose& key, int64_t held_
   end.hit.reset();
   poses.insert(place, {timed, end});
   std::vector<client::Warning> warnings;
-  for (const TimedFault& fault : DanceFaults(skeleton, poses)) {
+  for (const TimedFault& fault : WayFaults(skeleton, poses)) {
     // Ignores faults of other keys, except on the transitions to and from this key.
     const bool its_own = fault.pose == index || fault.pose == index + 1;
     const bool way_from = fault.pose == index + 2 && fault.on_way;

@@ -85,4 +85,56 @@ TEST(KeyFaultsTest, AJumpWithoutAPlaceIsWarnedOf) {
   EXPECT_TRUE(faults(R"("joints": {"left_knee": 90})").empty());
 }
 
+/// The faults of keys of the library's poses, each at its time, with or without a place.
+std::vector<client::Warning> FaultsOf(const std::string& keys) {
+  DanceKeys read;
+  read.poses = ParseKeyFile("{\"keyframes\": [" + keys + "]}", "keys.json", Body(), &read.places);
+  return KeyFaults(read, 30, Body());
+}
+
+TEST(KeyFaultsTest, AJumpOutOfAFloorPoseNeedsTimeToRise) {
+  const std::string stand = R"({"time": 0, "pose": "stand", "place": [0, 0]}, )";
+  const std::string splits = R"({"id": "low", "time": 3, "pose": "splits", "place": [0, 0]}, )";
+  const auto jump = [](const std::string& time) {
+    return R"({"id": "up", "pose": "star_jump", "place": [0, 0], "hit": 1, "time": )" + time + "}";
+  };
+  const auto faults = FaultsOf(stand + splits + jump("3.5"));
+  ASSERT_EQ(faults.size(), 1U);
+  EXPECT_EQ(faults[0].frame, 105);
+  EXPECT_THAT(faults[0].message,
+              testing::ContainsRegex("key \"up\" .*the pelvis would rise 0.7[0-9] m in 0.2[0-9] s "
+                                     "from \"low\" to \"the take-off of up\"; that takes 0.7"));
+  EXPECT_EQ(FaultsOf(stand + splits + jump("3.1")).size(), 1U) << "less than the flight takes";
+  EXPECT_THAT(FaultsOf(stand + splits + jump("4.2")), testing::IsEmpty());
+  // Jumps begin and end in a bend of the knees.
+  const std::string crouch = R"({"time": 3, "pose": "crouch", "place": [0, 0]}, )";
+  EXPECT_THAT(FaultsOf(stand + crouch + jump("3.6")), testing::IsEmpty());
+
+  const auto landed =
+      FaultsOf(stand + jump("3") + R"(, {"id": "low", "time": 3.6, "pose": "splits", "hit": 0})");
+  ASSERT_EQ(landed.size(), 2U) << "and a hit without time";
+  EXPECT_THAT(landed[1].message,
+              testing::ContainsRegex("the pelvis would sink 0.7[0-9] m in 0.3[0-9]* s from \"the "
+                                     "landing of up\" to \"low\""));
+}
+
+TEST(KeyFaultsTest, AJumpSetInADanceAfterAFloorPoseNeedsTimeToRise) {
+  const auto keys = ParseKeyFile(R"({"keyframes": [
+    {"id": "low", "time": 3, "pose": "splits", "place": [0, 0]},
+    {"id": "up", "time": 3.5, "pose": "star_jump", "place": [0, 0]}]})",
+                                 "keys.json", Body());
+  const std::vector<TimedPose> around = {{"low", 3, keys[0].pose}};
+  const auto faults = KeyFaults(keys[1], 105, 30, Body(), around);
+  ASSERT_EQ(faults.size(), 1U);
+  EXPECT_THAT(faults[0].message, testing::HasSubstr("to \"the take-off of up\""));
+}
+
+// The dance leads down to the floor by itself.
+TEST(KeyFaultsTest, TheKeyThatLandsAJumpNeedsNoPlace) {
+  EXPECT_THAT(FaultsOf(R"({"time": 1, "pose": "stand", "place": [0, 0]},
+                          {"time": 3, "pose": "tuck_jump", "place": [0.3, 0]},
+                          {"time": 3.7, "pose": "stand"})"),
+              testing::IsEmpty());
+}
+
 }  // namespace choreo::authoring::key_faults_test
