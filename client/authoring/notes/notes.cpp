@@ -26,4 +26,10 @@ void Note(const std::string& line) {
     Sink()(line);
 }
 
+std::string NoteAbout(const std::string& whom, const std::string& line) {
+  for (const std::string kind : {"note: ", "warning: "})
+    if (line.starts_with(kind)) return kind + whom + ": " + line.substr(kind.size());
+  return whom + ": " + line;
+}
+
 }  // namespace choreo::authoring

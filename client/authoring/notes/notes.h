@@ -30,7 +30,10 @@ class NotesApart {
   std::vector<std::string> lines_;
 };
 
-/// For this library: passes a line to the sink.
+/// For this library and programs' code: passes a line to the sink.
 void Note(const std::string& line);
+
+/// A line that names whom it is about: "warning: ada: 3 s: ...".
+std::string NoteAbout(const std::string& whom, const std::string& line);
 
 }  // namespace choreo::authoring

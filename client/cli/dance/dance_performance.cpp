@@ -14,6 +14,7 @@
 #include "client/authoring/keys/key_faults.h"
 #include "client/authoring/keys/key_file.h"
 #include "client/authoring/keys/pose_source.h"
+#include "client/authoring/notes/notes.h"
 #include "client/authoring/project/formation.h"
 #include "client/cli/dance/dance_display.h"
 #include "client/cli/options/interruption.h"
@@ -43,8 +44,8 @@ double ChooseSeconds(const DanceOptions& options, const authoring::Music& music)
   if (*options.seconds > song) {
     std::ostringstream message;
     message << "warning: --seconds " << *options.seconds << " is beyond the song, which ends at "
-            << Rounded(song) << " s; the dance ends with it\n";
-    std::cerr << message.str();
+            << Rounded(song) << " s; the dance ends with it";
+    authoring::Note(message.str());
   }
   return std::min(*options.seconds, song);
 }
@@ -115,7 +116,7 @@ void AddEnding(const DanceOptions& options, const std::optional<authoring::Music
   const std::vector<std::string> gone = authoring::EndIn(pose, beats, controls, seen, keys);
   if (options.keys.empty()) return;  // the user did not set the removed keys
   for (const std::string& id : gone)
-    std::cerr << "note: key \"" << id << "\" makes way for the ending\n";
+    authoring::Note("note: key \"" + id + "\" makes way for the ending");
 }
 
 client::DanceResult Dance(const client::Client& client, const client::DanceConfig& config,
@@ -123,7 +124,7 @@ client::DanceResult Dance(const client::Client& client, const client::DanceConfi
                           double model_fps, const DanceOptions& options,
                           const std::filesystem::path& out, VmcShow* show) {
   client::DanceResult dance;
-  DanceDisplay display(*config.frames, model_fps);
+  DanceDisplay display(*config.frames, model_fps, options.dancers_named);
   try {
     client.Dance(
         config, keys.poses, audio,
@@ -183,8 +184,8 @@ PlannedDance Plan(const DanceOptions& options, const std::optional<authoring::Mu
   const double seconds =
       music ? ChooseSeconds(options, *music) : ChooseSilentSeconds(options, controls, model);
   if (music && !model.takes_music) {
-    std::cerr << "note: the model \"" << model.name
-              << "\" takes no music; the song gives the dance its length and its beats\n";
+    authoring::Note("note: the model \"" + model.name +
+                    "\" takes no music; the song gives the dance its length and its beats");
   }
   authoring::CheckInADance(std::round(seconds * model.fps) / model.fps, "--seconds");
   const authoring::DanceLength length{std::llround(seconds * model.fps), model.fps};

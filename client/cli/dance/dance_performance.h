@@ -37,7 +37,8 @@ struct DanceOptions : DanceManner {
   double fps = 0;
   authoring::WrittenControls controls;
   std::string model;
-  std::string dancers;  ///< a file (dancers.h); empty: a single dancer
+  std::string dancers;             ///< a file (dancers.h); empty: a single dancer
+  std::string dancers_named = {};  ///< those of `dancers` who share this dance: "ada, ben"
   std::string out;
   std::string report;
   std::string vmc;

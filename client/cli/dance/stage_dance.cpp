@@ -3,13 +3,17 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <iostream>
+#include <iterator>
 #include <utility>
 
+#include "client/authoring/notes/notes.h"
 #include "client/authoring/project/formation.h"
 #include "client/cli/report/report.h"
 #include "client/cli/report/report_controls.h"
 #include "model/core/atomic_file.h"
+#include "model/core/joined.h"
 #include "model/core/rounded.h"
 #include "model/formats/gltf/gltf.h"
 #include "model/formats/motion_file.h"
@@ -50,9 +54,42 @@ bool SameDance(const DanceOptions& a, const DanceOptions& b) {
 /// A dance and its dancers.
 struct Shared {
   PlannedDance plan;
-  std::string names;
   fs::path out;  ///< the output file of the first of these dancers
   Performance performance = {};
+
+  const std::string& names() const { return plan.options.dancers_named; }
+};
+
+/// Notes on dances that are planned. Tells each once, in the end: with the names of the dancers
+/// whom it is about, unless it is about all.
+class PlanNotes {
+ public:
+  explicit PlanNotes(size_t dances) : dances_(dances) {}
+  PlanNotes(const PlanNotes&) = delete;
+  PlanNotes& operator=(const PlanNotes&) = delete;
+  ~PlanNotes() {
+    for (const auto& [line, about] : notes_) {
+      const std::string names = Joined(about, std::identity());
+      authoring::Note(about.size() == dances_ ? line : authoring::NoteAbout(names, line));
+    }
+  }
+
+  void Add(const std::string& names, const std::vector<std::string>& lines) {
+    for (const std::string& line : lines) {
+      auto known = std::ranges::find(notes_, line, &std::pair<std::string, Names>::first);
+      if (known == notes_.end()) {
+        notes_.emplace_back(line, Names());
+        known = std::prev(notes_.end());
+      }
+      if (std::ranges::find(known->second, names) == known->second.end())
+        known->second.push_back(names);
+    }
+  }
+
+ private:
+  using Names = std::vector<std::string>;
+  size_t dances_;
+  std::vector<std::pair<std::string, Names>> notes_;  // lines, and names of the dances
 };
 
 /// Plans each different dance once; returns the index of each dancer's dance.
@@ -60,19 +97,34 @@ std::vector<Shared> PlanAll(const DanceOptions& options, const authoring::Dancer
                             const std::optional<authoring::Music>& music,
                             const Connection& connection, const fs::path& out,
                             std::vector<size_t>* dance_of) {
-  std::vector<Shared> dances;
+  std::vector<DanceOptions> asked;
+  std::vector<fs::path> outs;
   for (size_t i = 0; i < stage.dancers.size(); ++i) {
     const authoring::Dancer& dancer = stage.dancers[i];
-    const DanceOptions own =
+    DanceOptions own =
         OwnOptions(options, dancer, options.dancers + ":dancers[" + std::to_string(i) + "]");
     const auto same = std::ranges::find_if(
-        dances, [&](const Shared& dance) { return SameDance(dance.plan.options, own); });
-    dance_of->push_back(static_cast<size_t>(same - dances.begin()));
-    if (same != dances.end()) {
-      same->names += ", " + dancer.id;
+        asked, [&](const DanceOptions& other) { return SameDance(other, own); });
+    dance_of->push_back(static_cast<size_t>(same - asked.begin()));
+    if (same != asked.end()) {
+      same->dancers_named += ", " + dancer.id;
       continue;
     }
-    dances.push_back({Plan(own, music, connection), dancer.id, PathOf(dancer, out)});
+    own.dancers_named = dancer.id;
+    asked.push_back(std::move(own));
+    outs.push_back(PathOf(dancer, out));
+  }
+  PlanNotes notes(asked.size());
+  std::vector<Shared> dances;
+  for (size_t i = 0; i < asked.size(); ++i) {
+    const authoring::NotesApart apart;
+    try {
+      dances.push_back({Plan(asked[i], music, connection), outs[i]});
+    } catch (...) {
+      notes.Add(asked[i].dancers_named, apart.lines());
+      throw;
+    }
+    notes.Add(asked[i].dancers_named, apart.lines());
   }
   return dances;
 }
@@ -171,7 +223,7 @@ void DanceTogether(const DanceOptions& options, const authoring::Dancers& stage,
     dance.performance = Perform(dance.plan, connection, dance.out, &none);
   }
   for (const Shared& dance : shared)
-    std::cout << dance.names << ":\n" << ReportText(dance.performance.written);
+    std::cout << dance.names() << ":\n" << ReportText(dance.performance.written);
 
   const Skeleton& skeleton = shared.front().performance.dance.header.skeleton;
   std::vector<client::FinishedDance> dances;

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <iostream>
 #include <map>
 #include <sstream>
 
 #include "client/authoring/fields/counts.h"
 #include "client/authoring/fields/json_fields.h"
+#include "client/authoring/notes/notes.h"
 #include "client/cli/report/dance_settings.h"
 #include "model/core/hand_pose.h"
 #include "model/core/hit.h"
@@ -224,8 +224,8 @@ void NoteStyle(const client::ModelDescription& model, const std::string& style) 
   const auto& figures = model.style_figures;
   const bool is_one = std::ranges::find(model.styles, style) != model.styles.end();
   if (!is_one || !figures || figures->shows()) return;
-  std::cerr << "note: --style " << style << " hardly shows: the styles of the model \""
-            << model.name << "\" change its dances, but people do not see which it is\n";
+  authoring::Note("note: --style " + style + " hardly shows: the styles of the model \"" +
+                  model.name + "\" change its dances, but people do not see which it is");
 }
 
 void NoteDeterministic(const client::ModelDescription& model,
@@ -233,8 +233,8 @@ void NoteDeterministic(const client::ModelDescription& model,
   if (!model.deterministic) return;
   for (const auto& [name, is_given] : options) {
     if (!is_given) continue;
-    std::cerr << "note: the model \"" << model.name << "\" is deterministic; " << name
-              << " changes nothing\n";
+    authoring::Note("note: the model \"" + model.name + "\" is deterministic; " +
+                    std::string(name) + " changes nothing");
   }
 }
 

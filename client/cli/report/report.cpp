@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <iostream>
+#include <functional>
+#include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "client/authoring/notes/notes.h"
 #include "model/core/counted.h"
 
 namespace choreo::cli {
@@ -106,7 +108,7 @@ std::string Describe(const client::Warning& warning, const TimeFormat& times) {
 }
 
 void ShowWarnings(const std::vector<client::Warning>& warnings, const TimeFormat& times) {
-  for (const client::Warning& warning : warnings) std::cerr << Describe(warning, times) << '\n';
+  for (const client::Warning& warning : warnings) authoring::Note(Describe(warning, times));
 }
 
 std::string ReportText(const WrittenDance& dance) {

@@ -17,7 +17,7 @@ namespace choreo::cli {
 /// velocity factors. Figures are absent if the server was lost.
 std::string ReportJson(const WrittenDance& dance);
 
-/// Prints warnings on stderr for people, one per line.
+/// Passes warnings to people as notes (notes.h).
 void ShowWarnings(const std::vector<client::Warning>& warnings, const TimeFormat& times);
 std::string Describe(const client::Warning& warning, const TimeFormat& times);
 

@@ -55,6 +55,30 @@ TEST_F(DancersTest, SingleDancerEqualsASoloDance) {
             ReadJson(folder_ / "alone.json")["keyframes"]);
 }
 
+TEST_F(DancersTest, ANoteNamesThoseWhomItIsAbout) {
+  std::ofstream(folder_ / "jump.json")
+      << R"({"keyframes": [{"id": "up", "time": 2, "pose": "star_jump"}]})";
+  const auto count = [](const std::string& said, const std::string& what) {
+    size_t found = 0;
+    for (size_t at = said.find(what); at != said.npos; at = said.find(what, at + 1)) ++found;
+    return found;
+  };
+  const std::string lost = "2 s (frame 60): key \"up\": the pose is ";
+  // Two dances through the same keys, then keys of one dancer alone.
+  Write(R"({"id": "ada", "place": [-1, 0]}, {"id": "ben", "place": [1, 0], "seed": 5})");
+  const Outcome all = DanceAll("-k " + At("jump.json"));
+  ASSERT_EQ(all.code, 0) << all.said;
+  EXPECT_EQ(count(all.said, "warning: " + lost), 1U) << all.said;
+  EXPECT_EQ(count(all.said, lost), 1U) << all.said;
+  Write(R"({"id": "ada", "place": [-1, 0]},
+           {"id": "ben", "place": [1, 0], "keyframes": ["jump.json"]},
+           {"id": "cy", "place": [3, 0], "keyframes": ["jump.json"]})");
+  const Outcome two = DanceAll("-k none");
+  ASSERT_EQ(two.code, 0) << two.said;
+  EXPECT_EQ(count(two.said, "warning: ben, cy: " + lost), 1U) << two.said;
+  EXPECT_EQ(count(two.said, lost), 1U) << two.said;
+}
+
 TEST_F(DancersTest, WhoBeginsLaterEndsInHerOwnTime) {
   Write(R"({"id": "ada", "place": [0, 0]}, {"id": "cy", "place": [-4, 0], "after": "4 counts"})");
   const Outcome outcome = DanceAll("--end bow");
