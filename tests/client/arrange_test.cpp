@@ -240,6 +240,19 @@ TEST_F(ArrangeTest, MirrorsAPhraseWhereTheDancerStands) {
   ExpectSame(at(after, keys[3]), at(before, keys[3]));
 }
 
+TEST_F(ArrangeTest, SaysWhatIsDoneToEachKey) {
+  const std::vector<int64_t> keys = Keys("dance");
+  const std::string id = ReadJson(folder_ / "dance.json")["keyframes"][1]["id"];
+  const std::string phrase = Seconds(keys[1]) + ' ' + Seconds(keys[1] + 2);
+  const Outcome outcome = Edit("dance",
+                               "--repeat " + phrase + " 5 --mirror-phrase " +
+                                   Seconds(keys[1] + 150) + ' ' + Seconds(keys[1] + 152),
+                               "twice", Server());
+  ASSERT_EQ(outcome.code, 0) << outcome.said;
+  EXPECT_THAT(outcome.said, HasSubstr("\nrepeated key " + id + ": frames "));
+  EXPECT_THAT(outcome.said, HasSubstr("\nmirrored key " + id + ": frames "));
+}
+
 TEST_F(ArrangeTest, APhraseGoesInHalfTime) {
   const std::vector<int64_t> keys = Keys("dance");
   ASSERT_GE(keys.size(), 5U);

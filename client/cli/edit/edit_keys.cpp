@@ -127,7 +127,7 @@ void MoveKey(const EditOptions& options, const std::string& id, double to_s, Wor
   };
   if (!reach.Reaches(std::abs(by)) || !std::ranges::all_of(frames, is_new))
     dance->Free(frames, edit.key.id + " leaves its place");
-  dance->Set("--move", to_s, std::move(edit));
+  dance->Set("--move", "moved", to_s, std::move(edit));
   report.Keep(ended);
 }
 
@@ -151,7 +151,7 @@ void SetKey(const EditOptions& options, const std::string& source, double at_s,
   if (options.hit) edit.key.hit = options.hit;
   HoldAsAsked(options, source, at_s, *dance, &edit);
   const std::vector<client::Warning> ended = MakeRoom("--at", &edit, &dance->report());
-  dance->Set("--at", at_s, std::move(edit));
+  dance->Set("--at", "set", at_s, std::move(edit));
   dance->report().Keep(ended);
 }
 
@@ -176,7 +176,7 @@ void EndInPose(const EditOptions& options, const std::string& source, WorkingDan
   const std::vector<client::Warning> ended = EndHold(begin, edit.key.id, &report);
   ClearWay(begin - times.Frame(authoring::kWayFromHold) + 1, times.frames, {}, "the ending",
            &report);
-  dance->Set("--end", begin_s, std::move(edit));
+  dance->Set("--end", "set", begin_s, std::move(edit));
   report.Keep(ended);
 }
 

@@ -41,14 +41,16 @@ void EndWithDance(int64_t frames, client::KeyEdit* edit) {
   if (LastFrame(*edit) >= frames) HoldUntil(frames - 1, edit);
 }
 
-/// Sets the keys of a phrase at their frames, where the dance must have no other keys.
-void SetAll(const char* field, std::span<const client::KeyEdit> phrase, WorkingDance* dance) {
+/// Sets the keys of a phrase at their frames, where the dance must have no other keys. `done`: what
+/// the edit does to each, for people.
+void SetAll(const char* field, const std::string& done, std::span<const client::KeyEdit> phrase,
+            WorkingDance* dance) {
   for (const client::KeyEdit& edit : phrase) {
     const int64_t at = *edit.key.frame;
     // Generates all frames between them again.
     for (const client::KeyEdit& other : phrase)
       if (*other.key.frame != at) dance->report().MarkStale(*other.key.frame + 1);
-    dance->Set(field, dance->times().Seconds(at), edit);
+    dance->Set(field, done, dance->times().Seconds(at), edit);
   }
   dance->report().ClearStale();
 }
@@ -99,7 +101,7 @@ void StretchPhrase(double from_s, double until_s, double times, WorkingDance* da
       stays ? first + 1 : std::min(first, now - kMinKeyDistance + 1),
       std::max({at.Frame(until_s), stretched(at.Frame(until_s)), last + int64_t{kMinKeyDistance}}),
       unstretched, "stretched keys", &report);
-  SetAll("--stretch", std::span(phrase).subspan(size_t{stays}), dance);
+  SetAll("--stretch", "stretched", std::span(phrase).subspan(size_t{stays}), dance);
   report.Keep(ended);
 }
 
@@ -134,7 +136,7 @@ void RepeatPhrase(double from_s, double until_s, const std::string& later, Worki
     carry(edit.key.pose);
     for (client::KeyPose& held : edit.held) carry(held.pose);
   }
-  SetAll("--repeat", phrase, dance);
+  SetAll("--repeat", "repeated", phrase, dance);
   report.Keep(ended);
 }
 
@@ -150,7 +152,7 @@ void MirrorPhrase(double from_s, double until_s, WorkingDance* dance) {
     for (client::KeyPose& held : edit.held) mirror(held.pose);
     dance->report().Forget(*edit.key.frame, LastFrame(edit) + 1);
   }
-  SetAll(kField, phrase, dance);
+  SetAll(kField, "mirrored", phrase, dance);
 }
 
 }  // namespace choreo::cli

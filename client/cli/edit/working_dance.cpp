@@ -62,7 +62,8 @@ std::vector<client::KeyPose> WorkingDance::KeysAsDanced(int64_t first, int64_t e
   return danced;
 }
 
-void WorkingDance::Set(const char* field, double at_s, client::KeyEdit edit) {
+void WorkingDance::Set(const char* field, const std::string& done, double at_s,
+                       client::KeyEdit edit) {
   const int64_t frames = times().frames;
   const int64_t first = *edit.key.frame;
   const int64_t last = LastFrame(edit);
@@ -75,7 +76,7 @@ void WorkingDance::Set(const char* field, double at_s, client::KeyEdit edit) {
   }
   Prepare(&edit);
   WarnOfFaults(edit);
-  Apply(client::SetKey(client_, dance_, settings_, edit), "key " + edit.key.id);
+  Apply(client::SetKey(client_, dance_, settings_, edit), done + " key " + edit.key.id);
   report_.Record(edit);
 }
 
