@@ -189,7 +189,7 @@ PlannedDance Plan(const DanceOptions& options, const std::optional<authoring::Mu
   }
   authoring::CheckInADance(std::round(seconds * model.fps) / model.fps, "--seconds");
   const authoring::DanceLength length{std::llround(seconds * model.fps), model.fps};
-  PlannedDance plan{.options = options, .length = length};
+  PlannedDance plan{.options = options, .length = length, .counts = CountsOf(options, music)};
   plan.keys = ChooseKeys(options, music, seconds, length, model);
   AddEnding(options, music, controls, length, model, &plan.keys);
   options.controls.RequireBegun(controls, length);
@@ -213,13 +213,14 @@ PlannedDance Plan(const DanceOptions& options, const std::optional<authoring::Mu
 
 Performance Perform(const PlannedDance& plan, const Connection& connection,
                     const std::filesystem::path& out, std::optional<VmcShow>* show) {
-  const auto& [options, length, keys, faults, config, audio] = plan;
+  const auto& [options, length, counts, keys, faults, config, audio] = plan;
   if (!options.vmc.empty()) show->emplace(options.vmc, connection.model(options.model).skeleton);
   client::DanceResult dance = Dance(connection.client(), config, keys, audio, length.fps, options,
                                     out, *show ? &**show : nullptr);
   WrittenDance written = Examine(dance.header, dance.report, dance.motion, keys.poses);
   MarkHolds(keys, &written);
   written.settings = SettingsFor(options, dance.header, config);
+  written.counts = counts;
   written.warnings = faults;
   written.warnings.insert(written.warnings.end(), dance.warnings.begin(), dance.warnings.end());
   written.beat_hit_chance = BeatHitChance(config.music_beats, length.frames, length.fps);

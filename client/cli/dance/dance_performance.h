@@ -51,6 +51,7 @@ struct DanceOptions : DanceManner {
 struct PlannedDance {
   DanceOptions options;
   authoring::DanceLength length;
+  authoring::Counts counts = {};  ///< of the song
   authoring::DanceKeys keys = {};
   std::vector<client::Warning> faults = {};  ///< warnings about the keys
   client::DanceConfig config = {};

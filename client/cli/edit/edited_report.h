@@ -39,7 +39,9 @@ class EditedReport {
  public:
   EditedReport() = default;
   EditedReport(ReportFile file, DanceTimes times)
-      : file_(std::move(file)), times_(std::move(times)) {}
+      : file_(std::move(file)), times_(std::move(times)) {
+    file_.counts = times_.counts;
+  }
 
   const ReportFile& file() const { return file_; }
   const ReportKeys& keys() const { return file_.keys; }

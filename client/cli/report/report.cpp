@@ -8,6 +8,7 @@
 
 #include "client/authoring/notes/notes.h"
 #include "model/core/counted.h"
+#include "model/core/joined.h"
 
 namespace choreo::cli {
 namespace {
@@ -67,6 +68,18 @@ std::string KeysText(const WrittenDance& dance) {
                 100 * furthest->correction_m, keys == 1 ? "" : ", the most of all keys");
 }
 
+/// Tells where keys fall, if they are few; the report tells all.
+std::string KeyTimesText(const WrittenDance& dance) {
+  constexpr std::ptrdiff_t kMaxTold = 8;
+  const TimeFormat times{dance.fps, dance.counts};
+  std::vector<std::string> told;
+  for (const auto& [frame, key] : dance.keys)
+    if (key.holds.empty()) told.push_back(key.id + " at " + times.Of(frame));
+  if (told.empty()) return "";
+  if (std::ssize(told) <= kMaxTold) return "keys: " + Joined(told, std::identity(), "; ") + "\n";
+  return "keys: " + told.front() + " to " + told.back() + "; --report lists them\n";
+}
+
 }  // namespace
 
 std::string ReportJson(const WrittenDance& dance) {
@@ -117,7 +130,7 @@ std::string ReportText(const WrittenDance& dance) {
       "%lld frames (%.1f s) by model \"%s\", seed %llu\n", static_cast<long long>(report.frames),
       static_cast<double>(report.frames) / dance.header.model_fps, dance.header.model.c_str(),
       static_cast<unsigned long long>(dance.header.seed));
-  if (!dance.keys.empty()) text += KeysText(dance);
+  if (!dance.keys.empty()) text += KeysText(dance) + KeyTimesText(dance);
   if (report.measured_from > dance.header.first_frame) {
     text += Format("since frame %lld, where another server took over: ",
                    static_cast<long long>(report.measured_from));

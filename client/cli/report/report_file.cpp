@@ -13,6 +13,7 @@
 #include "client/authoring/fields/json_fields.h"
 #include "client/authoring/keys/key_file.h"
 #include "client/cli/report/report_controls.h"
+#include "client/cli/report/time_format.h"
 #include "model/core/error.h"
 #include "model/core/json_limits.h"
 #include "model/core/nearest.h"
@@ -102,8 +103,13 @@ int64_t FrameIn(const ordered_json& part, const char* text, const std::string& f
                                    std::to_string(authoring::kMaxFrameNumber));
 }
 
-ordered_json KeyJson(const ReportKey& key) {
-  ordered_json written = {{"id", key.id}, {"frame", key.frame}};
+/// To 4 decimals: time and count are there for people, the frame for programs.
+double Short(double value) { return std::round(value * 1e4) / 1e4; }
+
+ordered_json KeyJson(const ReportKey& key, const TimeFormat& times) {
+  ordered_json written = {
+      {"id", key.id}, {"frame", key.frame}, {"time", Short(times.Second(key.frame))}};
+  if (const auto count = times.Count(key.frame)) written["count"] = Short(*count);
   for (const auto& [member, figure] : kFigures)
     if (!std::isnan(key.*figure)) written[member] = key.*figure;
   if (!key.holds.empty()) written["holds"] = key.holds;
@@ -185,7 +191,7 @@ void ReportFile::WriteTo(ordered_json* json) const {
   VisitMembers(*json, settings, MemberWriter());
   WriteControls(settings.controls, json);
   ordered_json& written = (*json)["keyframes"] = ordered_json::array();
-  for (const auto& [frame, key] : keys) written.push_back(KeyJson(key));
+  for (const auto& [frame, key] : keys) written.push_back(KeyJson(key, {fps, counts}));
   ordered_json& warned = (*json)["warnings"] = ordered_json::array();
   std::vector<client::Warning> sorted = warnings;
   std::ranges::stable_sort(sorted, {}, &client::Warning::frame);

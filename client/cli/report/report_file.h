@@ -44,6 +44,8 @@ struct ReportFile {
   DanceSettings settings = {};
   ReportKeys keys = {};
   std::vector<client::Warning> warnings = {};
+  authoring::Counts counts =
+      {};  ///< of the song, if known: WriteTo tells the keys', none reads them
 
   void WriteTo(nlohmann::ordered_json* json) const;
 };

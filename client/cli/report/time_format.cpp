@@ -2,20 +2,28 @@
 
 #include <cmath>
 
+#include "model/core/limits.h"
 #include "model/core/rounded.h"
 
 namespace choreo::cli {
 
 std::string TimeFormat::Of(int64_t frame) const {
-  const double second = static_cast<double>(frame) / fps;
-  const std::string told = Rounded(second) + " s";
-  if (counts.beats.size() < 2) return told;
-  const auto count_at = [&](double off) { return authoring::CountAt(second + off / fps, counts); };
-  // Shows the frame nearest to count 9 as 9c.
+  const std::string told = Rounded(Second(frame)) + " s";
+  const std::optional<double> count = Count(frame);
+  return count ? Rounded(*count) + "c, " + told : told;
+}
+
+std::optional<double> TimeFormat::Count(int64_t frame) const {
+  if (counts.beats.size() < 2) return std::nullopt;
+  const auto count_at = [&](double off) {
+    return authoring::CountAt(Second(frame) + off / fps, counts);
+  };
   const double part = std::round(4 * count_at(0)) / 4;
-  const bool is_part = count_at(-0.5) <= part && part <= count_at(0.5);
+  // The first frame may have a key of the frame beside it (FrameForKey).
+  const double beyond = frame == 0 ? kMinKeyDistance - 0.5 : 0.5;
+  const bool is_part = count_at(-0.5) <= part && part <= count_at(beyond);
   const double count = is_part ? part : count_at(0);
-  return count < 0 ? told : Rounded(count) + "c, " + told;
+  return count < 0 ? std::nullopt : std::optional(count);
 }
 
 }  // namespace choreo::cli

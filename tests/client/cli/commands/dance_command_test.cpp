@@ -124,6 +124,28 @@ TEST_F(CommandTest, DancesThroughTheExampleInWords) {
 }
 
 // The later key replaces the earlier one, as animators expect.
+TEST_F(CommandTest, TellsWhenKeysFall) {
+  WriteClicks(folder_ / "song.wav", 10);
+  std::ofstream(folder_ / "keys.json") << R"({"keyframes": [
+    {"id": "a", "time": "5c", "pose": "stand", "hold": 0.5}, {"id": "b", "time": "9c", "pose": "kick"}]})";
+  const auto dance = [&](const std::string& options) {
+    const Outcome outcome =
+        Choreo("dance " + options + Server() + " -o " + At("d.npz") + " --report " + At("r.json"));
+    EXPECT_EQ(outcome.code, 0) << outcome.said;
+    return outcome.said;
+  };
+  const std::string said = dance(At("song.wav") + " -k " + At("keys.json"));
+  EXPECT_THAT(said, testing::ContainsRegex("\nkeys: a at 5c, [0-9.]+ s; b at 9c, [0-9.]+ s\n"));
+  const nlohmann::json key = ReadJson(folder_ / "r.json")["keyframes"].back();
+  EXPECT_EQ(key["count"], 9);
+  EXPECT_NEAR(key["time"].get<double>(), key["frame"].get<double>() / 30, 1e-4);
+  EXPECT_THAT(dance(At("song.wav") + " --seconds 10"), HasSubstr("\nkeys: "));
+  std::ofstream(folder_ / "keys.json")
+      << R"({"keyframes": [{"id": "a", "time": 1, "pose": "stand"}]})";
+  EXPECT_THAT(dance("-k " + At("keys.json")), HasSubstr("\nkeys: a at 1 s\n"));
+  EXPECT_FALSE(ReadJson(folder_ / "r.json")["keyframes"][0].contains("count"));
+}
+
 TEST_F(CommandTest, AKeyInAHoldEndsItInTimeForTheWay) {
   std::ofstream(folder_ / "keys.json")
       << R"({"keyframes": [{"id": "a", "time": 1, "pose": "stand", "hold": 3},

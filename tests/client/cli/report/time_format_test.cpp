@@ -15,4 +15,14 @@ TEST(TimeFormat, SaysSecondsOrCounts) {
   EXPECT_EQ(counts.Of(38), "2.91c, 1.27 s");
 }
 
+TEST(TimeFormat, CountsFromCountZeroOn) {
+  const TimeFormat counts{30, authoring::CountsFrom({0.31, 0.81, 1.31}, std::vector{0.81})};
+  EXPECT_EQ(counts.Count(24), 1);
+  EXPECT_EQ(counts.Count(9), 0);
+  EXPECT_EQ(counts.Count(0), std::nullopt);
+  EXPECT_EQ(TimeFormat{30}.Count(9), std::nullopt);
+  // A key at 0.03 s stands on the first frame.
+  EXPECT_EQ((TimeFormat{30, authoring::CountsFrom({0.03, 0.53}, {})}.Count(0)), 1);
+}
+
 }  // namespace choreo::cli::time_format_test
