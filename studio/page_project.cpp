@@ -55,7 +55,7 @@ void AddKeys(authoring::DanceKeys keys, const client::ModelDescription& model,
     }
     ProjectKey* key = out->Add();
     *key->mutable_key() = client::ToProto(keys.poses[i]);
-    key->mutable_key()->set_frame(frame);
+    key->mutable_key()->set_frame(authoring::FrameForKey(frame));
   }
 }
 

@@ -70,9 +70,7 @@ ProjectDance DanceOf(const StudioContext& context, const authoring::Project& pro
     config.music_downbeats = project.downbeats;
     authoring::ConfigureMusic(song->music, seconds, &config);
   }
-  for (size_t i = 0; i < dance.keys.poses.size(); ++i)
-    authoring::FitIntoDance({*config.frames, model.fps}, dance.keys.places[i],
-                            &dance.keys.poses[i]);
+  authoring::FitIntoDance({*config.frames, model.fps}, &dance.keys);
   dance.keys = authoring::ByTime(std::move(dance.keys), model.fps);
   return dance;
 }

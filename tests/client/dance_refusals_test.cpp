@@ -166,8 +166,10 @@ TEST_F(CommandTest, NamesAKeyAsItWasWritten) {
   write("held.json", R"("id": "a", "time": 1, "hold": 1)", R"("id": "b", "time": 12)");
   refused("-k " + At("held.json"), "held.json:keyframes[1].time: key \"b\" at 12 s is after");
   write("long.json", R"("id": "a", "time": 1)", R"("id": "b", "time": 2, "hold": 4)");
-  refused("-k " + At("long.json"),
-          "long.json:keyframes[1].hold: the hold of key \"b\" at 4.2 s is after");
+  refused(
+      "-k " + At("long.json"),
+      "long.json:keyframes[1].hold: the end of the hold of key \"b\" at 6 s is after the dance's "
+      "end: its last frame is at 3.97 s");
   write("one.json", R"("id": "a", "time": 1)", R"("id": "b", "time": 2)");
   write("two.json", R"("id": "c", "time": 3)", R"("id": "a", "time": 3.5)");
   refused("-k " + At("one.json") + " -k " + At("two.json"),

@@ -258,16 +258,14 @@ TEST_F(EditTest, RefusesImpossibleEdits) {
   expect_failure(
       "--key kick --at 3 --key groove --at 3.03",
       "--at: 3.03 s lies 1 frame from the key at 3 s, must be at least 2 frames from it");
-  expect_failure("--key kick --at 0.03",
-                 "--at: 0.03 s lies 1 frame from an end of the dance, at 0 s");
   expect_failure("--key kick --at 2 --report " + At("other.json"), "far stands at frame 900");
   std::ofstream(folder_ / "huge.json")
       << R"({"fps": 30.0, "keyframes": [{"id": "far", "frame": 18446744073709551615}]})";
   expect_failure(
-  expect_failure("--key kick --at 2 --report " + At("dance.npz"),
-                 "dance.npz: is not JSON, nor any text");
       "--key kick --at 2 --report " + At("huge.json"),
       "keyframes[0]: has no id, or no frame that is a whole number from 0 to 1000000000");
+  expect_failure("--key kick --at 2 --report " + At("dance.npz"),
+                 "dance.npz: is not JSON, nor any text");
   std::ofstream(folder_ / "deep.json") << std::string(1'000'000, '[');
   expect_failure("--key kick --at 2 --report " + At("deep.json"), "more than 64 levels");
   expect_failure("--key kick --at 2 --report " + At("song.wav"), "is not the report of a dance");

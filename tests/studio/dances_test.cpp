@@ -57,6 +57,22 @@ TEST_F(StudioTest, DancesAsTheClientLibraryDoes) {
   }
 }
 
+TEST_F(StudioTest, AKeyBesideTheBeginningIsDancedOnTheFirstFrame) {
+  const Opened studio(server_.address());
+  Page page(studio.port());
+  Request request = DanceRequest(60, 7);
+  AddKey(page.welcome().poses(6), 1, request.mutable_dance()->mutable_project());
+  page.Say(2, request);
+  for (;;) {
+    const Response response = page.Read();
+    ASSERT_FALSE(response.has_failure()) << response.failure().message();
+    if (response.dance().event().has_keyframe_reached()) {
+      EXPECT_EQ(response.dance().event().keyframe_reached().frame(), 0);
+      return;
+    }
+  }
+}
+
 // Sending fails once, with another exception than ours.
 TEST_F(StudioTest, AnswersAFailureOfADancesThread) {
   const StudioContext context({.addresses = {server_.address()}}, {}, {});

@@ -71,7 +71,7 @@ double SecondOf(int64_t frame, double fps, const Counts& counted) {
   const double place = PlaceAmong(second, counted.beats);
   for (const int parts : {1, 2, 3, 4}) {
     const double simple = SecondAt(std::round(place * parts) / parts, counted.beats);
-    if (std::llround(simple * fps) == frame) return simple;
+    if (FrameForKey(std::llround(simple * fps)) == frame) return simple;
   }
   return second;
 }

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "model/core/limits.h"
+
 /// Times as people write them: in seconds, or in counts of the music, which are its beats.
 namespace choreo::authoring {
 
@@ -43,9 +45,15 @@ struct WrittenTime {
 /// Converts a second to a count, in music with at least two beats: the inverse of WrittenTime::In.
 double CountAt(double seconds, const Counts& counted);
 
+/// The frame for a key at `frame`: the first one for a key beside it. A dance begins in the first
+/// frame's pose, from which one frame is no way.
+inline int64_t FrameForKey(int64_t frame) {
+  return frame > 0 && frame < kMinKeyDistance ? 0 : frame;
+}
+
 /// The exact second of a key that was rounded to `frame`: a whole, half, third or quarter count
-/// that rounds to it, the simplest first. Without such a count or two beats: frame / fps. So later
-/// shifts by counts do not add to the rounding.
+/// that rounds to it (FrameForKey), the simplest first. Without such a count or two beats: frame /
+/// fps. So later shifts by counts do not add to the rounding.
 double SecondOf(int64_t frame, double fps, const Counts& counted);
 
 /// Returns the second `times` as far from `begin` as `seconds` is: in counts if the music has at

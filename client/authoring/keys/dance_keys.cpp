@@ -63,10 +63,26 @@ std::string WrittenMoment(const client::KeyPose& key) {
   return key.frame ? "at frame " + std::to_string(*key.frame) : "at " + Rounded(key.time_s) + " s";
 }
 
-/// A key of a hold as people wrote it: with the id of the key whose pose it holds.
+/// A key as people wrote it. The last one of a hold is the hold's end.
 std::string Spoken(const client::KeyPose& key, const std::string& place) {
   if (!IsHeld(place)) return "key \"" + key.id + '"';
-  return "the hold of key \"" + key.id.substr(0, key.id.rfind(kHeldStep)) + '"';
+  return "the end of the hold of key \"" + key.id.substr(0, key.id.rfind(kHeldStep)) + '"';
+}
+
+/// The last of the keys from `index` on that hold the same pose; `index` itself for other keys.
+size_t EndOfHold(const DanceKeys& keys, size_t index) {
+  if (!IsHeld(keys.places[index])) return index;
+  while (index + 1 < keys.places.size() && keys.places[index + 1] == keys.places[index]) ++index;
+  return index;
+}
+
+/// Throws for a key after the dance's end.
+void RequireInDance(const DanceLength& length, const std::string& place,
+                    const client::KeyPose& key) {
+  const int64_t frame = FrameOf(key, length.fps);
+  if (frame < length.frames || (!key.frame && frame == length.frames)) return;
+  throw InvalidArgument(FieldOf(place, key.frame ? ".frame" : ".time"),
+                        Spoken(key, place) + ' ' + DescribeAfterEnd(frame, length));
 }
 
 /// Throws for keys that are too near each other, which the server would refuse only once the dance
@@ -109,12 +125,15 @@ int64_t FrameOf(const client::KeyPose& key, double fps) {
   return key.frame.value_or(std::llround(key.time_s * fps));
 }
 
-void FitIntoDance(const DanceLength& length, const std::string& place, client::KeyPose* key) {
-  const int64_t frame = FrameOf(*key, length.fps);
-  if (!key->frame && frame == length.frames) key->frame = length.frames - 1;
-  if (FrameOf(*key, length.fps) < length.frames) return;
-  throw InvalidArgument(FieldOf(place, key->frame ? ".frame" : ".time"),
-                        Spoken(*key, place) + ' ' + DescribeAfterEnd(frame, length));
+void FitIntoDance(const DanceLength& length, DanceKeys* keys) {
+  for (size_t i = 0; i < keys->poses.size(); ++i) {
+    const size_t end = EndOfHold(*keys, i);
+    RequireInDance(length, keys->places[end], keys->poses[end]);
+    client::KeyPose& key = keys->poses[i];
+    const int64_t frame = FrameOf(key, length.fps);
+    if (frame == length.frames) key.frame = length.frames - 1;
+    if (FrameForKey(frame) != frame) key.frame = FrameForKey(frame);
+  }
 }
 
 std::string DescribeHoldEnd(const std::string& held, int64_t now, int64_t was,
@@ -157,11 +176,11 @@ DanceKeys ReadDanceKeys(const std::vector<std::string>& sources, const DanceLeng
         throw InvalidArgument(FieldOf(place, ".id"),
                               "\"" + keys[i].id + "\" stands for " + same->second + " already");
       }
-      FitIntoDance(length, place, &keys[i]);
       read.poses.push_back(std::move(keys[i]));
       read.places.push_back(place);
     }
   }
+  FitIntoDance(length, &read);
   DanceKeys keys = ByTime(std::move(read), length.fps);
   RequireApart(keys, length.fps);
   return keys;

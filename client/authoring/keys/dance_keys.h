@@ -39,8 +39,9 @@ std::string DescribeAfterEnd(int64_t frame, const DanceLength& length);
 int64_t FrameOf(const client::KeyPose& key, double fps);
 
 /// Moves a key at the very end of a dance, such as at second 30 of 30, to the last frame: people
-/// mean that. Throws Error(kInvalidArgument), whose field begins with `place`, for a later key.
-void FitIntoDance(const DanceLength& length, const std::string& place, client::KeyPose* key);
+/// mean that. Moves a key beside the first frame to that (FrameForKey in counts.h). Throws
+/// Error(kInvalidArgument), whose field begins with the key's place, for a later key.
+void FitIntoDance(const DanceLength& length, DanceKeys* keys);
 
 /// Says that the hold of key `held` ends at frame `now`, not `was`, because of key `key`.
 std::string DescribeHoldEnd(const std::string& held, int64_t now, int64_t was,

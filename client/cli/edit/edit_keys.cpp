@@ -100,7 +100,7 @@ void MoveKey(const EditOptions& options, const std::string& id, double to_s, Wor
   const EditReach& reach = dance->reach();
   const std::vector<int64_t> frames =
       FindKey(report.keys(), id, report.times().fps, "--move", report.times().counts);
-  const int64_t by = report.times().FrameInDance("--move", to_s) - frames.front();
+  const int64_t by = report.times().KeyFrame("--move", to_s) - frames.front();
   if (frames.front() == 0 && by != 0) {
     throw InvalidArgument("--move", "\"" + report.IdAt(0) +
                                         "\" is the first frame, where the dance begins; set it at "
@@ -138,7 +138,7 @@ void SetKey(const EditOptions& options, const std::string& source, double at_s,
   if (named.has_place && !options.allow_bends)
     authoring::RefuseBends({{named.key}, {source}}, dance->settings().model.skeleton);
   client::KeyEdit edit{.key = named.key, .held = named.held};
-  edit.key.frame = dance->times().FrameInDance("--at", at_s);
+  edit.key.frame = dance->times().KeyFrame("--at", at_s);
   const GroundFrame here = dance->Here(*edit.key.frame);
   Pose& pose = edit.key.pose;
   if (!named.has_place) {

@@ -19,7 +19,8 @@ std::vector<client::KeyEdit> Phrase(const char* field, double from_s, double unt
                                     const WorkingDance& dance) {
   const EditedReport& report = dance.report();
   // A hold belongs to its key as a whole.
-  const int64_t begin = report.times().Frame(from_s), from = report.AfterHold(begin),
+  const int64_t begin = authoring::FrameForKey(report.times().Frame(from_s)),
+                from = report.AfterHold(begin),
                 until = report.AfterHold(report.times().Frame(until_s));
   std::vector<client::KeyEdit> phrase;
   for (client::KeyPose& danced : dance.KeysAsDanced(from, until)) {
@@ -117,7 +118,7 @@ void RepeatPhrase(double from_s, double until_s, const std::string& later, Worki
     throw InvalidArgument("--repeat", later + " is not later: it must be at least one frame");
   std::vector<client::KeyEdit> phrase = Phrase("--repeat", from_s, until_s, *dance);
   for (client::KeyEdit& edit : phrase) {
-    edit.key.frame = times.FrameInDance("--repeat", times.Seconds(moved(*edit.key.frame)));
+    edit.key.frame = times.KeyFrame("--repeat", times.Seconds(moved(*edit.key.frame)));
     for (client::KeyPose& held : edit.held) held.frame = moved(*held.frame);
   }
   EndWithDance(times.frames, &phrase.back());

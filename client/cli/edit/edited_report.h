@@ -25,6 +25,10 @@ struct DanceTimes {
   int64_t Frame(double seconds) const { return std::llround(seconds * fps); }
   /// The frame at second `at_s`. Throws if it is after the dance's end.
   int64_t FrameInDance(const char* field, double at_s) const;
+  /// The frame for a key at second `at_s` (authoring::FrameForKey). Throws as FrameInDance does.
+  int64_t KeyFrame(const char* field, double at_s) const {
+    return authoring::FrameForKey(FrameInDance(field, at_s));
+  }
   double Seconds(int64_t frame) const { return static_cast<double>(frame) / fps; }
   /// As authoring::SecondOf, for times that are moved by counts.
   double CountedSecond(int64_t frame) const { return authoring::SecondOf(frame, fps, counts); }

@@ -64,6 +64,7 @@ std::vector<client::KeyPose> WorkingDance::KeysAsDanced(int64_t first, int64_t e
 
 void WorkingDance::Set(const char* field, const std::string& done, double at_s,
                        client::KeyEdit edit) {
+  edit.key.frame = authoring::FrameForKey(*edit.key.frame);
   const int64_t frames = times().frames;
   const int64_t first = *edit.key.frame;
   const int64_t last = LastFrame(edit);

@@ -31,8 +31,9 @@ class WorkingDance {
   /// The report's keys at frames in [first, end), as danced.
   std::vector<client::KeyPose> KeysAsDanced(int64_t first, int64_t end) const;
 
-  /// Sets a moved or new key at this second, with the keys that hold it, between its neighbours. `done`:
-  /// what the edit does to the key, for people ("moved").
+  /// Sets a moved or new key at this second, with the keys that hold it, between its neighbours. A
+  /// key beside the first frame, which earlier dances may have, comes to stand on it. `done`: what
+  /// the edit does to the key, for people ("moved").
   void Set(const char* field, const std::string& done, double at_s, client::KeyEdit edit);
   /// Removes keys, none of which is the dance's first frame.
   void Free(const std::vector<int64_t>& frames, const std::string& what);

@@ -237,6 +237,26 @@ TEST_F(CommandTest, AKeyAtTheVeryEndIsDancedOnTheLastFrame) {
   EXPECT_THAT(Choreo(dance + " --seconds 2.9").said, HasSubstr("is after the dance's end"));
 }
 
+// A dance begins in the pose of its first frame, from which one frame is no way.
+TEST_F(CommandTest, AKeyBesideTheBeginningIsDancedOnTheFirstFrame) {
+  const auto frames = [&](const std::string& key) {
+    std::ofstream(folder_ / "keys.json")
+        << R"({"keyframes": [{"id": "late", "time": 2.5, "pose": "kick"}, {"id": "a", )" << key
+        << "}]}";
+    const Outcome outcome = Choreo("dance -k " + At("keys.json") + Server() + "--seconds 3 -o " +
+                                   At("d.npz") + " --report " + At("r.json"));
+    EXPECT_EQ(outcome.code, 0) << outcome.said;
+    std::vector<int> told;
+    const nlohmann::json report = ReadJson(folder_ / "r.json");
+    for (const auto& key_told : report["keyframes"]) told.push_back(key_told["frame"]);
+    return told;
+  };
+  EXPECT_EQ(frames(R"("time": 0.04, "pose": "groove")"), (std::vector{0, 75}));
+  EXPECT_EQ(frames(R"("frame": 1, "pose": "groove")"), (std::vector{0, 75}));
+  EXPECT_EQ(frames(R"("time": 0.06, "pose": "groove")"), (std::vector{2, 75}));
+  EXPECT_EQ(frames(R"("time": 0.04, "pose": "groove", "hold": 0.3)"), (std::vector{0, 10, 75}));
+}
+
 TEST_F(CommandTest, ADanceEndsInAPoseThatIsHeld) {
   WriteClicks(folder_ / "song.wav", 10);
   const auto dance = [&](const std::string& options) {

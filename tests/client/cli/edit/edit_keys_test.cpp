@@ -84,6 +84,49 @@ TEST_F(EditTest, TimesAreAlsoCountsOfTheMusic) {
   EXPECT_THAT(without.said, HasSubstr("--at: 9c: counts need music that has beats; name a song"));
 }
 
+TEST_F(EditTest, AKeyBesideTheBeginningStandsOnTheFirstFrame) {
+  const nlohmann::json keys = ReadJson(folder_ / "report.json")["keyframes"];
+  ASSERT_EQ(keys[0]["frame"], 0);
+  const std::string with_report =
+      " --report " + At("report.json") + " --new-report " + At("new.json") + " -o " + At("new.npz");
+  const Outcome set = Edit("--key dab --at 0.03" + with_report);
+  ASSERT_EQ(set.code, 0) << set.said;
+  EXPECT_THAT(set.said, HasSubstr("at 0 s makes way for \"dab\": it stands there"));
+  EXPECT_THAT(set.said, HasSubstr("set key dab: frames 0 to"));
+  const nlohmann::json now = ReadJson(folder_ / "new.json")["keyframes"];
+  EXPECT_EQ(now[0]["id"], "dab");
+  EXPECT_EQ(now[0]["frame"], 0);
+  EXPECT_EQ(now.size(), keys.size());
+  // Earlier dances may have such keys.
+  nlohmann::json report = ReadJson(folder_ / "report.json");
+  report["keyframes"][0]["frame"] = 1;
+  std::ofstream(folder_ / "report.json") << report;
+  const Outcome mirrored = Edit("--mirror-phrase 0 0.5" + with_report);
+  ASSERT_EQ(mirrored.code, 0) << mirrored.said;
+  EXPECT_EQ(ReadJson(folder_ / "new.json")["keyframes"][0]["frame"], 0);
+}
+
+TEST_F(EditTest, TheCountOfAKeyBesideTheBeginningStillNamesIt) {
+  std::ofstream beats(folder_ / "beats.txt");
+  for (int beat = 0; beat < 19; ++beat) beats << 0.03 + 0.5 * beat << '\n';
+  beats.close();
+  std::ofstream(folder_ / "keys.json") << R"({"keyframes": [
+    {"id": "one", "time": "1c", "pose": "kick", "hold": "1c"}, {"time": "9c", "pose": "dab"}]})";
+  ASSERT_EQ(Choreo("dance " + At("song.wav") + Server() + "--beats " + At("beats.txt") + " -k " +
+                   At("keys.json") + " -o " + At("dance.npz") + " --report " + At("report.json"))
+                .code,
+            0);
+  const nlohmann::json one = ReadJson(folder_ / "report.json")["keyframes"][0];
+  EXPECT_EQ(one["frame"], 0);
+  EXPECT_EQ(one["count"], 1);
+  const Outcome outcome =
+      Edit("--mirror-phrase 1c 2c --repeat 1c 2c 4c --report " + At("report.json") +
+           " --new-report " + At("new.json") + " -o " + At("new.npz"));
+  ASSERT_EQ(outcome.code, 0) << outcome.said;
+  EXPECT_THAT(outcome.said, HasSubstr("mirrored key one: frames 0 to"));
+  EXPECT_THAT(ReadJson(folder_ / "new.json")["keyframes"].dump(), HasSubstr(R"("count":5.0)"));
+}
+
 TEST_F(EditTest, KeysTooNearANewOneMakeWayAndAreNamed) {
   const std::string id = ReadJson(folder_ / "report.json")["keyframes"][2]["id"];
   const Outcome outcome = Edit("--key kick --at " + Seconds(keys_[2] + 3) + " --key dab --at " +
