@@ -128,12 +128,12 @@ void Run(const PoseOptions& options) {
   for (const std::string& fault : PoseFaults(Body(), key.pose, key.mask))
     std::cerr << "warning: " << fault << '\n';
   if (!options.out.empty()) {
+    const double hold_s = options.hold_s.value_or(authoring::HeldSeconds(made));
     key.id = std::filesystem::path(options.out).stem().string();
     key.time_s = options.at_s;
     key.frame.reset();
     if (!options.hands.empty()) key.hands = FindHandPose(options.hands);
     if (options.hit) key.hit = options.hit;
-    const double hold_s = options.hold_s.value_or(authoring::HeldSeconds(made));
     authoring::RefuseHeldInAir(key, hold_s, "--hold", Body());
     WriteFile(options.out,
               authoring::PoseFileText({key, options.description, options.tags, hold_s}, Body()));

@@ -72,20 +72,22 @@ TEST_F(PoseCommandTest, OutputIsAValidKey) {
 
 TEST_F(PoseCommandTest, AKeySaysHowLongItIsHeldAndHowHardItIsHit) {
   ASSERT_EQ(Choreo("pose --from dab --at 2 --hold 0.8 --hit 2.5 --out " + At("a.json")).code, 0);
-  const auto expect_held = [this](const std::string& name) {
+  const auto expect_held = [this](const std::string& name, double at_s) {
     std::vector<std::string> places;
     const auto keys = authoring::ReadKeys((folder_ / name).string(), Body(), &places);
     ASSERT_EQ(keys.size(), 5U);
-    EXPECT_EQ(keys.front().time_s, 2);
+    EXPECT_EQ(keys.front().time_s, at_s);
     EXPECT_EQ(keys.front().hit, 2.5);
-    EXPECT_NEAR(keys.back().time_s, 2.8, 1e-9);
+    EXPECT_NEAR(keys.back().time_s, at_s + 0.8, 1e-9);
     EXPECT_TRUE(authoring::IsHeld(places.back()));
   };
-  expect_held("a.json");
-  // A pose made from it keeps both.
-  ASSERT_EQ(Choreo("pose --from " + At("a.json") + " --mirror --at 2 --out " + At("b.json")).code,
-            0);
-  expect_held("b.json");
+  expect_held("a.json", 2);
+  // A pose made from it keeps both, at any time.
+  for (const char* at : {"0", "2", "4.5"}) {
+    const std::string from = "pose --from " + At("a.json") + " --mirror --out " + At("b.json");
+    ASSERT_EQ(Choreo(from + " --at " + at).code, 0);
+    expect_held("b.json", std::stod(at));
+  }
   const Outcome jump = Choreo("pose --from star_jump --hold 3 --out " + At("c.json"));
   EXPECT_EQ(jump.code, 1);
   EXPECT_THAT(jump.said, HasSubstr("--hold: key"));
