@@ -30,6 +30,15 @@ TEST(Program, NamesTheVariableOfAServerThatIsNotThere) {
   const std::string variable = "CHOREO_SERVER names it: start one there (choreo serve), or unset";
   const Outcome outcome = Choreo("info --deadline 0.3", "CHOREO_SERVER=127.0.0.1:1 ");
   EXPECT_EQ(outcome.code, 1);
+TEST(Program, SaysThatItWaitsForAServer) {
+  const Outcome outcome = Choreo("info --deadline 2", "CHOREO_SERVER=127.0.0.1:1 ");
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_THAT(outcome.said, testing::StartsWith(
+                                "note: 127.0.0.1:1: no server can be reached: connection "
+                                "refused; CHOREO_SERVER names it: start one there (choreo "
+                                "serve), or unset CHOREO_SERVER; trying for up to 2 s\nchoreo: "));
+}
+
   EXPECT_THAT(outcome.said, HasSubstr("127.0.0.1:1: no server can be reached"));
   EXPECT_THAT(outcome.said, HasSubstr(variable));
   EXPECT_THAT(Choreo("info --deadline 0.3 --server 127.0.0.1:1").said,

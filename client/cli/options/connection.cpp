@@ -21,6 +21,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 constexpr std::chrono::seconds kOfOneLoss{5};
+/// After this time without a server people wonder. A server that just starts may come before.
+constexpr std::chrono::milliseconds kSilent{500};
 constexpr const char* kServerVariable = "CHOREO_SERVER";
 
 /// Adds, to the error for an unreachable server, where its address comes from.
@@ -93,13 +95,19 @@ client::Options ServerOptions::ForClient() const {
 }
 
 struct Connection::Failures {
-  explicit Failures(double seconds) : retry_s(seconds) {}
+  Failures(double seconds, std::vector<std::string> of)
+      : retry_s(seconds), addresses(std::move(of)) {}
 
-  /// Prints a note for each loss of a server, once.
+  /// Prints a note for each loss of a server, once, and one if no server was ever reached.
   void Note(const std::string& address, const Error& failure) {
-    // The error itself reports a server that was never reached.
-    if (!reached) return;
     const std::lock_guard lock(mutex);
+    if (!reached) {
+      if (waits || Clock::now() - begun < kSilent) return;
+      waits = true;
+      std::cerr << "note: " << Explained(failure.Of(address), addresses).what()
+                << "; trying for up to " << Rounded(retry_s) << " s\n";
+      return;
+    }
     latest = failure;
     // Retries are at most seconds apart; later failures are another loss.
     const Clock::time_point before = std::exchange(noted[address], Clock::now());
@@ -109,6 +117,9 @@ struct Connection::Failures {
   }
 
   const double retry_s;
+  const std::vector<std::string> addresses;
+  const Clock::time_point begun = Clock::now();
+  bool waits = false;  // lock: mutex
   std::atomic<bool> reached = false;
   std::mutex mutex;
   std::optional<Error> latest;                     // lock: mutex
@@ -133,7 +144,8 @@ Connection::Connection(const ServerOptions& options, const std::optional<std::st
     Interruption::Check();
     if (own) own->RequireRunning();
   };
-  failures_ = std::make_shared<Failures>(client_options.retry_s);
+  const double patience_s = options.deadline_s > 0 ? options.deadline_s : client_options.retry_s;
+  failures_ = std::make_shared<Failures>(patience_s, options.addresses);
   client_options.retried = [failures = failures_](const std::string& address,
                                                   const Error& failure) {
     failures->Note(address, failure);
