@@ -18,6 +18,10 @@ TEST(Program, HelpIsACommandToo) {
   }
 }
 
+TEST(Program, ServesWithOptionsThatItsHelpNames) {
+  EXPECT_THAT(Choreo("serve --help").said, HasSubstr("--listen HOST:PORT"));
+}
+
 TEST(Program, ServesAtAnAddress) {
   for (const char* port : {"--port 1", "--port=1"}) {
     const Outcome outcome = Choreo(std::string("serve ") + port);
@@ -26,10 +30,6 @@ TEST(Program, ServesAtAnAddress) {
   }
 }
 
-TEST(Program, NamesTheVariableOfAServerThatIsNotThere) {
-  const std::string variable = "CHOREO_SERVER names it: start one there (choreo serve), or unset";
-  const Outcome outcome = Choreo("info --deadline 0.3", "CHOREO_SERVER=127.0.0.1:1 ");
-  EXPECT_EQ(outcome.code, 1);
 TEST(Program, SaysThatItWaitsForAServer) {
   const Outcome outcome = Choreo("info --deadline 2", "CHOREO_SERVER=127.0.0.1:1 ");
   EXPECT_EQ(outcome.code, 1);
@@ -39,6 +39,10 @@ TEST(Program, SaysThatItWaitsForAServer) {
                                 "serve), or unset CHOREO_SERVER; trying for up to 2 s\nchoreo: "));
 }
 
+TEST(Program, NamesTheVariableOfAServerThatIsNotThere) {
+  const std::string variable = "CHOREO_SERVER names it: start one there (choreo serve), or unset";
+  const Outcome outcome = Choreo("info --deadline 0.3", "CHOREO_SERVER=127.0.0.1:1 ");
+  EXPECT_EQ(outcome.code, 1);
   EXPECT_THAT(outcome.said, HasSubstr("127.0.0.1:1: no server can be reached"));
   EXPECT_THAT(outcome.said, HasSubstr(variable));
   EXPECT_THAT(Choreo("info --deadline 0.3 --server 127.0.0.1:1").said,

@@ -9,6 +9,7 @@
 #include "client/authoring/local_server.h"
 #include "client/cli/commands/commands.h"
 #include "model/core/error.h"
+#include "network/protocol.h"
 
 namespace choreo::cli {
 namespace {
@@ -37,7 +38,13 @@ void AddServeCommand(CLI::App& program) {
   CLI::App* command = program.add_subcommand(
       "serve",
       "Keep a server on this machine, so that commands with --server or CHOREO_SERVER need not "
-      "start one each.\nTakes choreod's options (choreod --help).");
+      "start one each.\nIt prints the address at which it listens; Ctrl-C stops it. Without "
+      "options "
+      "that is 127.0.0.1:" +
+          std::to_string(kDefaultPort) +
+          ", as for commands. Takes choreod's options (choreod --help), of which one needs first:\n"
+          "  --listen HOST:PORT   another address\n"
+          "  --model NAME         another model, as paper-f or paper-c");
   command->prefix_command();
   command->callback([command] { Run(command->remaining()); });
 }
