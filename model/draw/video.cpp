@@ -69,7 +69,8 @@ std::vector<View> VideoViews(const Stage& stage, double aspect, std::optional<Ca
   return ViewsOf(stage, Follow(stage), aspect, side);
 }
 
-void DrawVideo(const Stage& source, const VideoOptions& options, const std::filesystem::path& mp4) {
+void DrawVideo(const Stage& source, const VideoOptions& options,
+               const std::filesystem::path& video) {
   CheckStage(source);
   const VideoFormat& format = options.format;
   Stage stage = source;
@@ -79,7 +80,7 @@ void DrawVideo(const Stage& source, const VideoOptions& options, const std::file
   const int64_t frames = CountFrames(stage);
   const std::vector<View> views =
       VideoViews(stage, static_cast<double>(format.width) / format.height, options.side);
-  VideoEncoder encoder(mp4, format, frames);
+  VideoEncoder encoder(video, format, frames);
   const auto draw = [&](int64_t frame) {
     Picture picture{.width = format.width, .height = format.height, .rgb = {}};
     DrawFrame(FiguresAt(stage, frame), views[static_cast<size_t>(frame)], {.samples = kSamples},

@@ -25,7 +25,7 @@ struct VideoOptions {
 /// Draws dancers (stage.h) as a video with music. The camera follows them smoothly. Interpolates if
 /// the rate differs from the motions'. Uses all cores; the result does not depend on their number.
 /// Throws what VideoEncoder, CheckStage and ViewsOf throw. Thread-safe.
-void DrawVideo(const Stage& stage, const VideoOptions& options, const std::filesystem::path& mp4);
+void DrawVideo(const Stage& stage, const VideoOptions& options, const std::filesystem::path& video);
 
 /// The camera's views, one per frame.
 std::vector<View> VideoViews(const Stage& stage, double aspect,

@@ -8,12 +8,17 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <cctype>
 #include <cerrno>
 #include <cstring>
+#include <functional>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include "model/core/error.h"
+#include "model/core/joined.h"
 #include "model/draw/check_within.h"
 
 namespace choreo {
@@ -32,7 +37,33 @@ void CheckFormat(const VideoFormat& format) {
 // "file:" keeps ffmpeg from reading a name as a protocol or an option.
 std::string FileUrl(const std::filesystem::path& path) { return "file:" + path.string(); }
 
-std::vector<std::string> Arguments(const VideoFormat& format, int64_t frames,
+/// What a kind of file needs besides the pictures: ffmpeg's options.
+struct FileKind {
+  const char* extension;
+  std::vector<std::string> sound, picture;
+};
+
+const FileKind& KindOf(const std::filesystem::path& video) {
+  static const FileKind kKinds[] = {
+      {kVideoExtensions[0],
+       {"-c:a", "aac", "-aac_coder", "fast", "-b:a", "192k"},
+       {"-c:v", "libx264", "-preset", "veryfast", "-x264-params", "subme=1", "-crf", "18",
+        "-movflags", "+faststart", "-f", "mp4"}},
+      // VP9's own rate is off, so that -crf determines the quality.
+      {kVideoExtensions[1],
+       {"-c:a", "libopus", "-b:a", "160k"},
+       {"-c:v", "libvpx-vp9", "-deadline", "good", "-cpu-used", "5", "-row-mt", "1", "-crf", "28",
+        "-b:v", "0", "-f", "webm"}}};
+  std::string extension = video.extension().string();
+  std::ranges::transform(extension, extension.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  for (const FileKind& kind : kKinds)
+    if (extension == kind.extension) return kind;
+  throw InvalidArgument(video.string(),
+                        "does not end in " + Joined(kVideoExtensions, std::identity(), " or "));
+}
+
+std::vector<std::string> Arguments(const VideoFormat& format, int64_t frames, const FileKind& kind,
                                    const std::filesystem::path& out) {
   std::vector<std::string> arguments = {
       "ffmpeg", "-hide_banner", "-loglevel", "error", "-nostdin", "-y",
@@ -40,28 +71,31 @@ std::vector<std::string> Arguments(const VideoFormat& format, int64_t frames,
       "-f", "rawvideo", "-pixel_format", "yuv420p", "-framerate", std::to_string(format.fps),
       "-video_size", std::to_string(format.width) + "x" + std::to_string(format.height), "-i",
       "pipe:0"};
-  const auto add = [&](std::initializer_list<std::string> more) {
-    arguments.insert(arguments.end(), more);
+  const auto add = [&](const std::vector<std::string>& more) {
+    arguments.insert(arguments.end(), more.begin(), more.end());
   };
   if (!format.song.empty()) {
     // A song may contain cover art, which would be a second picture.
     add({"-ss", std::to_string(format.song_start_s), "-i", FileUrl(format.song), "-map", "0:v:0",
-         "-map", "1:a:0", "-c:a", "aac", "-aac_coder", "fast", "-b:a", "192k"});
+         "-map", "1:a:0"});
+    add(kind.sound);
   }
-  add({"-c:v", "libx264", "-preset", "veryfast", "-x264-params", "subme=1", "-crf", "18",
-       // Players assume BT.709 for unmarked files, which would shift our colours.
+  add({// Players assume BT.709 for unmarked files, which would shift our colours.
        "-colorspace", "bt709", "-color_range", "tv", "-color_primaries", "bt709", "-color_trc",
        "bt709", "-t", std::to_string(static_cast<double>(frames) / format.fps), "-fflags",
-       "+bitexact", "-flags", "+bitexact", "-movflags", "+faststart", "-f", "mp4", FileUrl(out)});
+       "+bitexact", "-flags", "+bitexact"});
+  add(kind.picture);
+  add({FileUrl(out)});
   return arguments;
 }
 
 }  // namespace
 
-VideoEncoder::VideoEncoder(const std::filesystem::path& mp4, const VideoFormat& format,
+VideoEncoder::VideoEncoder(const std::filesystem::path& video, const VideoFormat& format,
                            int64_t frames)
-    : mp4_(mp4), file_(mp4) {
+    : video_(video), file_(video) {
   CheckFormat(format);
+  const FileKind& kind = KindOf(video);
   // Uses a socket, not a pipe, so that writing to a dead ffmpeg is an error, not a signal.
   int ends[2];
   if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0)
@@ -75,7 +109,7 @@ VideoEncoder::VideoEncoder(const std::filesystem::path& mp4, const VideoFormat& 
   posix_spawn_file_actions_adddup2(&actions, ends[1], STDIN_FILENO);
   posix_spawn_file_actions_adddup2(&actions, messages_, STDOUT_FILENO);
   posix_spawn_file_actions_adddup2(&actions, messages_, STDERR_FILENO);
-  std::vector<std::string> arguments = Arguments(format, frames, file_.partial());
+  std::vector<std::string> arguments = Arguments(format, frames, kind, file_.partial());
   std::vector<char*> pointers;
   for (std::string& argument : arguments) pointers.push_back(argument.data());
   pointers.push_back(nullptr);
@@ -130,7 +164,7 @@ void VideoEncoder::Fail() {
   while (!messages.empty() && messages.back() == '\n') messages.pop_back();
   // Keeps the first line of ffmpeg's messages, which names the cause.
   throw Error(
-      ErrorCode::kInternal, mp4_.string(),
+      ErrorCode::kInternal, video_.string(),
       "ffmpeg: " + (messages.empty() ? "ended early" : messages.substr(0, messages.find('\n'))));
 }
 

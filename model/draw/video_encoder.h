@@ -2,6 +2,7 @@
 
 #include <sys/types.h>
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <span>
@@ -21,14 +22,18 @@ struct VideoFormat {
   double song_start_s = 0;  ///< position in the song at the first frame, seconds
 };
 
-/// Writes an MP4 (H.264, AAC) with the program `ffmpeg`. The file appears only when complete.
+/// Files that VideoEncoder writes, by their extensions: H.264 and AAC, VP9 and Opus.
+inline constexpr std::array<const char*, 2> kVideoExtensions = {".mp4", ".webm"};
+
+/// Writes a video with the program `ffmpeg`. The file appears only when complete.
 /// Deterministic for one version of ffmpeg. Not thread-safe. Members throw Error(kNotFound) if
-/// there is no ffmpeg, Error(kInvalidArgument) for sizes and rates outside their limits, and
-/// Error(kInternal), whose field is the file and whose message is ffmpeg's, if ffmpeg fails.
+/// there is no ffmpeg, Error(kInvalidArgument) for other extensions, and sizes and rates outside
+/// their limits, and Error(kInternal), whose field is the file and whose message is ffmpeg's, if
+/// ffmpeg fails.
 class VideoEncoder {
  public:
   /// `frames`: the number of frames to be written, with which the music ends.
-  VideoEncoder(const std::filesystem::path& mp4, const VideoFormat& format, int64_t frames);
+  VideoEncoder(const std::filesystem::path& video, const VideoFormat& format, int64_t frames);
   /// Discards the video unless Finish was called.
   ~VideoEncoder();
   VideoEncoder(const VideoEncoder&) = delete;
@@ -44,7 +49,7 @@ class VideoEncoder {
   bool Wait();
   [[noreturn]] void Fail();
 
-  std::filesystem::path mp4_;
+  std::filesystem::path video_;
   AtomicFile file_;
   pid_t process_ = -1;
   int input_ = -1;     // the write end of ffmpeg's standard input

@@ -275,17 +275,24 @@ TEST_F(CommandTest, RendersAVideoWithItsSong) {
   WriteMotion(
       folder_ / "a.npz", Body(),
       {.fps = 60, .frames = std::vector<Pose>(61, authoring::FindLibraryPose("groove").pose)});
-  const Outcome outcome = Choreo("render " + At("a.npz") + " --video " + At("a.mp4") + " --song " +
-                                 At("song.wav") + " --fps 15 --size 64x48");
-  ASSERT_EQ(outcome.code, 0) << outcome.said;
-  EXPECT_THAT(outcome.said, HasSubstr("rendering 100 % 16/16"));
-  const std::string said = Shell(
-                               "ffprobe -v error -count_frames -of csv -show_entries "
-                               "stream=codec_name,width,height,nb_read_frames " +
-                               At("a.mp4"))
-                               .said;
-  EXPECT_THAT(said, HasSubstr("stream,h264,64,48,16"));
-  EXPECT_THAT(said, HasSubstr("stream,aac"));
+  const auto render = [&](const std::string& video) {
+    return Choreo("render " + At("a.npz") + " --video " + At(video) + " --song " + At("song.wav") +
+                  " --fps 15 --size 64x48");
+  };
+  for (const auto& [video, picture, sound] :
+       {std::tuple("a.mp4", "h264", "aac"), {"a.webm", "vp9", "opus"}}) {
+    const Outcome outcome = render(video);
+    ASSERT_EQ(outcome.code, 0) << outcome.said;
+    EXPECT_THAT(outcome.said, HasSubstr("rendering 100 % 16/16"));
+    const std::string said = Shell(
+                                 "ffprobe -v error -count_frames -of csv -show_entries "
+                                 "stream=codec_name,width,height,nb_read_frames " +
+                                 At(video))
+                                 .said;
+    EXPECT_THAT(said, HasSubstr("stream," + std::string(picture) + ",64,48,16"));
+    EXPECT_THAT(said, HasSubstr("stream," + std::string(sound)));
+  }
+  EXPECT_THAT(render("a.avi").said, HasSubstr("a.avi does not end in .mp4 or .webm"));
 }
 
 TEST_F(CommandTest, RendersAPartAsIfItWereTheWhole) {

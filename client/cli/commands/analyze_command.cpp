@@ -161,7 +161,7 @@ void PrintText(const authoring::Music& music, const authoring::Counts& counts,
 
 void Run(const AnalyzeOptions& options) {
   RequireOutputs({{"--features", options.features}}, {{"song", options.song}});
-  if (!options.features.empty()) RequireExtension("--features", options.features, ".npy");
+  if (!options.features.empty()) RequireExtension("--features", options.features, {".npy"});
   authoring::Music music =
       authoring::ReadMusic(options.song, options.seconds, options.song_start_s, options.beats);
   if (!options.features.empty()) {

@@ -75,7 +75,7 @@ void CheckMarkers(const EditOptions& options) {
     if (id.empty()) throw InvalidArgument("--mark", "has an empty name");
     authoring::ParseTime(time, "--mark");
   }
-  RequireExtension("--out", options.out, ".json");
+  RequireExtension("--out", options.out, {".json"});
   RequireOutputs({{"--out", options.out}}, {{"dance", options.dance}});
 }
 

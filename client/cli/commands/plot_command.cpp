@@ -176,7 +176,7 @@ void RequireOneEach(const std::string& option, size_t count, size_t motions) {
 }
 
 void Run(PlotOptions& options) {
-  RequireExtension("--out", options.out, ".png");
+  RequireExtension("--out", options.out, {".png"});
   std::vector<NamedFile> inputs;
   for (const std::string& motion : options.motions) inputs.push_back({"motion", motion});
   for (const std::string& path : options.paths) inputs.push_back({"--path", path});

@@ -119,8 +119,8 @@ void Run(const PoseOptions& options) {
                               " on its page; for what another program found in it there are "
                               "--from-landmarks and --from-smpl");
   }
-  if (!options.png.empty()) RequireExtension("--png", options.png, ".png");
-  if (!options.out.empty()) RequireExtension("--out", options.out, ".json");
+  if (!options.png.empty()) RequireExtension("--png", options.png, {".png"});
+  if (!options.out.empty()) RequireExtension("--out", options.out, {".json"});
   RequireOutputs({{"--out", options.out}, {"--png", options.png}}, {});
   if (options.list) return List(options);
   authoring::NamedPose made = MakePose(options.recipe, Body());

@@ -190,8 +190,9 @@ void Run(RenderOptions options, const ReportFile& report) {
     throw InvalidArgument("--out", "is missing, and so is --video: nothing to draw");
   if (options.video.empty() && !options.song.empty())
     throw InvalidArgument("--song", "pictures have no sound; it goes with --video");
-  if (!options.out.empty()) RequireExtension("--out", options.out, ".png");
-  if (!options.video.empty()) RequireExtension("--video", options.video, ".mp4");
+  if (!options.out.empty()) RequireExtension("--out", options.out, {".png"});
+  if (!options.video.empty())
+    RequireExtension("--video", options.video, {kVideoExtensions.begin(), kVideoExtensions.end()});
   if (!options.camera.empty()) options.sheet.side = options.film.side = FindCamera(options.camera);
   const Interruption interruption;  // from here on there may be an incomplete file to remove
   std::vector<NamedFile> inputs = {{"--report", options.report}, {"--song", options.song}};
@@ -258,8 +259,8 @@ void AddRenderCommand(CLI::App& program) {
       ->check(WholeNumberFrom(1, kMaxSheetColumns))
       ->capture_default_str();
   command->add_option("--title", options->sheet.title, "Heading; default: the file's name.");
-  CLI::Option* video =
-      command->add_option("--video", options->video, "MP4 file to write; needs ffmpeg.");
+  CLI::Option* video = command->add_option(
+      "--video", options->video, "MP4 or WebM file to write, FILE.mp4 or FILE.webm; needs ffmpeg.");
   command
       ->add_option(
           "--song", options->song,

@@ -1,11 +1,14 @@
 #include "client/cli/options/output_file.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <functional>
 
 #include "model/core/atomic_file.h"
 #include "model/core/error.h"
+#include "model/core/joined.h"
 #include "model/formats/motion_file.h"
 
 namespace choreo::cli {
@@ -63,9 +66,10 @@ void RequireOutputs(const std::vector<NamedFile>& outputs, const std::vector<Nam
 }
 
 void RequireExtension(const std::string& option, const std::filesystem::path& path,
-                      const std::string& extension) {
-  if (SmallExtension(path) != extension)
-    throw InvalidArgument(option, path.string() + " does not end in " + extension);
+                      const std::vector<std::string>& extensions) {
+  if (std::ranges::find(extensions, SmallExtension(path)) != extensions.end()) return;
+  throw InvalidArgument(
+      option, path.string() + " does not end in " + Joined(extensions, std::identity(), " or "));
 }
 
 std::filesystem::path PartialPath(const std::filesystem::path& out) {

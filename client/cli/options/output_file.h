@@ -18,9 +18,10 @@ struct NamedFile {
 /// reason, or the other option.
 void RequireOutputs(const std::vector<NamedFile>& outputs, const std::vector<NamedFile>& inputs);
 
-/// Refuses a file without this extension (".png", in upper or lower case). The error names both.
+/// Refuses a file with none of these extensions (".png", in upper or lower case). The error names
+/// them all.
 void RequireExtension(const std::string& option, const std::filesystem::path& path,
-                      const std::string& extension);
+                      const std::vector<std::string>& extensions);
 
 /// The path for a partial result: dance.partial.npz for dance.npz.
 std::filesystem::path PartialPath(const std::filesystem::path& out);
