@@ -108,6 +108,7 @@ TEST_F(CommandTest, AnalyzesASong) {
   WriteFile(folder_ / "beat.txt", "1\n");
   const std::string one = Choreo("analyze " + At("song.wav") + " --beats " + At("beat.txt")).said;
   EXPECT_THAT(one, HasSubstr("1 channel; 1 beat, 1 bar of 4"));
+  EXPECT_THAT(one, HasSubstr(" s no beat given here\n"));
   WriteFile(folder_ / "beat.txt", "");
   EXPECT_THAT(Choreo("analyze " + At("song.wav") + " --beats " + At("beat.txt")).said,
               HasSubstr("beat.txt is empty, but for comments"));

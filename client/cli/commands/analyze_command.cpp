@@ -129,13 +129,14 @@ void PrintStretches(const BeatTrack& track) {
   }
 }
 
-void PrintText(const authoring::Music& music, const authoring::Counts& counts,
+/// `verb`: how the beats came about, "heard" or "given".
+void PrintText(const authoring::Music& music, const authoring::Counts& counts, const char* verb,
                const std::optional<std::vector<authoring::ProposedKey>>& keys) {
   const BeatTrack& track = music.track;
   std::printf("%.2f s at %d Hz, %s; ", music.audio.seconds(), music.audio.sample_rate,
               Counted(music.audio.channels, "channel").c_str());
   if (track.frames.empty()) {
-    std::printf("no beat heard");
+    std::printf("no beat %s", verb);
   } else {
     if (track.tempo_bpm > 0) std::printf("%.1f beats a minute, ", track.tempo_bpm);
     std::printf("%s, %s of %d", Counted(track.frames.size(), "beat").c_str(),
@@ -146,7 +147,7 @@ void PrintText(const authoring::Music& music, const authoring::Counts& counts,
   PrintStretches(track);
   if (!track.frames.empty()) {
     for (const auto& [from, to] : WithoutBeats(track.Seconds(), music.audio.seconds()))
-      std::printf("%9.3f s  to %.3f s no beat heard here\n", from, to);
+      std::printf("%9.3f s  to %.3f s no beat %s here\n", from, to, verb);
   }
   for (const Passage& passage : music.passages)
     std::printf("%9.3f s  to %.3f s comes back as from %.3f s\n", passage.from, passage.to,
@@ -176,7 +177,10 @@ void Run(const AnalyzeOptions& options) {
   if (options.suggest_keys) keys = Propose(music, options);
   const authoring::Counts counts = authoring::CountsOf(music);
   authoring::KeepFirst(options.seconds, &music);
-  options.json ? PrintJson(music, counts, keys) : PrintText(music, counts, keys);
+  if (options.json)
+    PrintJson(music, counts, keys);
+  else
+    PrintText(music, counts, options.beats.FindsThem() ? "heard" : "given", keys);
 }
 
 }  // namespace
@@ -201,12 +205,13 @@ void AddAnalyzeCommand(CLI::App& program) {
                    "suggested within them.")
       ->check(AboveZero());
   AddBeatOptions(*command, &options->beats);
-  command->add_flag("--json", options->json,
-                    "Print JSON: duration_s, sample_rate, tempo_bpm, beats (seconds), "
-                    "beats_in_bar, downbeats (seconds), confidence (of each beat, 0 to 1: how much "
-                    "more begins on the beats around it than elsewhere), without_beats (where none "
-                    "is heard), passages (that return), energies (of each half second), notes and, "
-                    "with --suggest-keys, suggested_keys and keyframes (a key file).");
+  command->add_flag(
+      "--json", options->json,
+      "Print JSON: duration_s, sample_rate, tempo_bpm, beats (seconds), "
+      "beats_in_bar, downbeats (seconds), confidence (of each beat, 0 to 1: how much "
+      "more begins on the beats around it than elsewhere), without_beats (where none "
+      "is heard or given), passages (that return), energies (of each half second), notes and, "
+      "with --suggest-keys, suggested_keys and keyframes (a key file).");
   command->add_option("--features", options->features,
                       "FILE.npy to write the MFCC rows to, which the papers' models hear: [rows, "
                       "40], 30 a second.");
