@@ -147,11 +147,9 @@ void Run(const TransitionOptions& options) {
     WriteMotion(path, result.header.skeleton, candidate.motion, &candidate.contacts);
     WrittenDance written = Examine(result.header, candidate.report, candidate.motion, {target});
     written.warnings = result.warnings;
-    written.settings = {{options},
-                        result.header.model,
-                        result.header.seed,
-                        options.song == "-" ? "" : options.song,
-                        at_s};
+    written.settings = {{options}, result.header.model, result.header.seed};
+    written.settings.song = options.song == "-" ? "" : options.song;
+    written.settings.song_start_s = at_s;
     std::cout << ReportText(written) << path.string() << std::endl;
     if (rank == 0 && !options.report.empty()) WriteFile(options.report, ReportJson(written));
     CheckKeys(written);

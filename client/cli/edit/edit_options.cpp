@@ -141,7 +141,7 @@ void FillFromReport(bool says_start, EditOptions* options) {
   options->changed = ChangeOf(*options);
   // Another take needs another seed, unless other settings change.
   if (!options->retakes.empty() && options->changed == DanceChange::kNothing) {
-    options->seed = settings.seed.value_or(0) + 1;
+    options->seed = settings.take_seed.value_or(settings.seed.value_or(0)) + 1;
     std::cerr << "note: retakes use seed " << *options->seed << "; another --seed gives others\n";
   }
   options->changed = WithBeats(options->beats, options->changed);

@@ -44,7 +44,7 @@ void Retake(double from_s, double until_s, WorkingDance* dance) {
   dance->DanceAnew(
       "take of " + Rounded(times.Seconds(first)) + " to " + Rounded(times.Seconds(to)) + " s", from,
       to);
-  dance->report().settings().seed = dance->settings().seed;  // the next take has the next seed
+  dance->report().settings().take_seed = dance->settings().seed;  // the next take has the next one
 }
 
 void DanceOtherwise(const EditOptions& options, WorkingDance* dance) {
@@ -64,6 +64,7 @@ void DanceOtherwise(const EditOptions& options, WorkingDance* dance) {
   dance->DanceAnew("danced anew", begins_later ? path->frames.front() : -1, dance->times().frames);
   static_cast<DanceManner&>(settings) = changed;
   settings.seed = changed.seed;
+  settings.take_seed.reset();
   ControlRequest::VisitControls(
       [&](size_t row, auto& known, const auto& control) {
         if (options.controls.IsOption(row)) known = control;

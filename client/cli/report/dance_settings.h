@@ -18,7 +18,8 @@ inline constexpr const char* kNoSong = "none";
 struct DanceSettings : DanceManner {
   std::string model = {};
   std::optional<uint64_t> seed = {};
-  std::string song = {};  ///< the file's name as given
+  std::optional<uint64_t> take_seed = {};  ///< of the last retake of a part
+  std::string song = {};                   ///< the file's name as given
   double song_start_s = 0;
   /// In seconds of the dance; empty: found in the song.
   std::vector<double> beats = {}, downbeats = {};

@@ -37,6 +37,7 @@ template <typename Report, typename Settings, typename Visit>
 void VisitMembers(Report& report, Settings& settings, const Visit& visit) {
   visit(report, "model", settings.model);
   visit(report, "seed", settings.seed);
+  visit(report, "take_seed", settings.take_seed);
   DanceManner::VisitSettings(
       [&](const SettingRow& row, auto& setting) { visit(report, row.name, setting); }, settings);
   visit(report, "song", settings.song);

@@ -47,6 +47,7 @@ TEST_F(RetakeTest, AnotherTakeKeepsItsKeysAndWhatIsAround) {
                               At("take.json") + " -o " + At("next.npz"));
   ASSERT_EQ(next.code, 0) << next.said;
   EXPECT_THAT(next.said, HasSubstr("note: retakes use seed 5; another"));
+  EXPECT_EQ(ReadJson(folder_ / "take.json")["seed"], 3) << "the dance's";
   EXPECT_NE(ReadFile(folder_ / "next.npz"), ReadFile(folder_ / "take.npz"));
 }
 
