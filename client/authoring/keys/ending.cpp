@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "client/authoring/keys/key_file.h"
+#include "client/authoring/notes/notes.h"
 #include "model/core/error.h"
 #include "model/core/rounded.h"
 #include "model/motion/canonical.h"
@@ -60,6 +61,12 @@ client::KeyPose Ending(const NamedPose& pose, const std::vector<double>& beats,
   end.time_s = BeginOf(beats, last_s);
   end.frame = std::llround(end.time_s * length.fps);
   return end;
+}
+
+void NoteOwnHold(const NamedPose& pose) {
+  if (pose.held.empty()) return;
+  Note("note: --end holds \"" + pose.key.id + "\" to the last frame, not for " +
+       Rounded(HeldSeconds(pose)) + " s as its file says");
 }
 
 std::vector<std::string> EndIn(const NamedPose& pose, const std::vector<double>& beats,

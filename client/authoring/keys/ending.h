@@ -14,6 +14,9 @@ namespace choreo::authoring {
 client::KeyPose Ending(const NamedPose& pose, const std::vector<double>& beats,
                        const DanceLength& length);
 
+/// Notes (notes.h) that an ending holds the pose to the last frame if its file says otherwise.
+void NoteOwnHold(const NamedPose& pose);
+
 /// Adds the Ending of a pose, held to the last frame. A library pose faces the audience where the
 /// dance's last key or path leads, or else in the middle of the stage. Removes later keys, and keys
 /// less than kWayFromHold (key_file.h) before the pose. Returns the removed keys' ids, without keys

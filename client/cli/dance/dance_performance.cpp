@@ -106,6 +106,7 @@ void AddEnding(const DanceOptions& options, const std::optional<authoring::Music
       authoring::ReadPose(options.end, model.skeleton, CountsOf(options, music));
   if (pose.has_place && !options.allow_bends)
     authoring::RefuseBends({{pose.key}, {options.end}}, model.skeleton);
+  authoring::NoteOwnHold(pose);
   const std::vector<double> beats = CountsOf(options, music).beats;
   authoring::DanceLength seen = length;
   seen.frames -=
@@ -219,8 +220,8 @@ Performance Perform(const PlannedDance& plan, const Connection& connection,
                                     out, *show ? &**show : nullptr);
   WrittenDance written = Examine(dance.header, dance.report, dance.motion, keys.poses);
   MarkHolds(keys, &written);
-  written.settings = SettingsFor(options, dance.header, config);
   written.counts = counts;
+  written.settings = SettingsFor(options, dance.header, config);
   written.warnings = faults;
   written.warnings.insert(written.warnings.end(), dance.warnings.begin(), dance.warnings.end());
   written.beat_hit_chance = BeatHitChance(config.music_beats, length.frames, length.fps);

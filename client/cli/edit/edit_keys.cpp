@@ -161,6 +161,7 @@ void EndInPose(const EditOptions& options, const std::string& source, WorkingDan
   const authoring::NamedPose named = authoring::ReadPose(source, skeleton, times.counts);
   if (named.has_place && !options.allow_bends)
     authoring::RefuseBends({{named.key}, {source}}, skeleton);
+  authoring::NoteOwnHold(named);
   const double last_s = times.Seconds(times.frames - 1);
   client::KeyEdit edit;
   edit.key = authoring::Ending(named, times.counts.beats, {times.frames, times.fps});

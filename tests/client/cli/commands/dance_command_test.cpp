@@ -299,6 +299,12 @@ TEST_F(CommandTest, ADanceEndsInAPoseThatIsHeld) {
   EXPECT_NEAR(motion.frames.back().root_position.x(), 1, 0.3);
   EXPECT_NEAR(motion.frames.back().root_position.z(), -0.5, 0.3);
 
+  std::ofstream(folder_ / "bow.json")
+      << R"({"keyframes": [{"id": "own", "time": 0, "pose": "bow", "hold": 0.5}]})";
+  const Outcome own = Choreo("dance --seconds 6 -k none" + Server() + "-o " + At("d.npz") +
+                             " --end " + At("bow.json"));
+  EXPECT_THAT(own.said, HasSubstr("note: --end holds \"own\" to the last frame, not for 0.5 s"));
+
   const Outcome brief =
       Choreo("dance --seconds 2 --end bow -k none" + Server() + "-o " + At("d.npz"));
   EXPECT_EQ(brief.code, 1);
