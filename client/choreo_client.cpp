@@ -4,7 +4,7 @@
 #include <map>
 
 #include "client/convert.h"
-#include "client/remote_dance.h"
+#include "client/dance_call.h"
 #include "client/replicas.h"
 #include "proto/wire/control_messages.h"
 
@@ -129,83 +129,6 @@ struct DanceCollector {
 
 }  // namespace
 
-RemoteDance::RemoteDance(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
-RemoteDance::~RemoteDance() = default;
-
-void RemoteDance::SendSamples(std::span<const float> interleaved) {
-  const int bytes = impl_->bytes_per_sample();
-  if (impl_->audio_kind() != AudioKind::kPcmFloat || bytes == 0 ||
-      interleaved.size_bytes() % bytes != 0) {
-    throw InvalidArgument("samples",
-                          std::to_string(interleaved.size()) +
-                              " values are not whole samples of this dance's audio format");
-  }
-  impl_->SendMusic(ToPcmBytes(interleaved));
-}
-
-void RemoteDance::SendBytes(std::span<const std::byte> bytes) {
-  if (impl_->audio_kind() != AudioKind::kFile) {
-    throw InvalidArgument("bytes", "this dance's audio is not a file");
-  }
-  impl_->SendMusic({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
-}
-
-void RemoteDance::EndAudio() {
-  v1::StreamDanceRequest request;
-  request.mutable_end_of_audio();
-  impl_->Send(std::move(request));
-}
-
-void RemoteDance::SendKey(const KeyPose& key) {
-  v1::StreamDanceRequest request;
-  *request.mutable_keyframe() = ToProto(key);
-  impl_->Send(std::move(request));
-}
-
-void RemoteDance::RemoveKey(const std::string& id) {
-  v1::StreamDanceRequest request;
-  request.mutable_remove_keyframe()->set_id(id);
-  impl_->Send(std::move(request));
-}
-
-void RemoteDance::SendControls(const ControlRequest& controls) {
-  v1::StreamDanceRequest request;
-  *request.mutable_controls() = wire::ToProto(controls);
-  impl_->Send(std::move(request));
-}
-
-void RemoteDance::GenerateUntil(int64_t frame) {
-  v1::StreamDanceRequest request;
-  request.mutable_generate_until()->set_frame(frame);
-  impl_->Send(std::move(request));
-}
-
-void RemoteDance::SendBeats(std::span<const double> seconds, std::span<const double> downbeats,
-                            std::optional<double> confidence) {
-  v1::StreamDanceRequest request;
-  v1::MusicBeats& beats = *request.mutable_music_beats();
-  beats.mutable_times()->Add(seconds.begin(), seconds.end());
-  beats.mutable_downbeats()->Add(downbeats.begin(), downbeats.end());
-  if (confidence) beats.set_confidence(*confidence);
-  impl_->Send(std::move(request));
-}
-
-void RemoteDance::SendPassages(std::span<const Passage> passages) {
-  v1::StreamDanceRequest request;
-  for (const Passage& passage : passages)
-    *request.mutable_music_passages()->add_passages() = ToProto(passage);
-  impl_->Send(std::move(request));
-}
-
-void RemoteDance::CompleteKeys() {
-  v1::StreamDanceRequest request;
-  request.mutable_keyframes_complete();
-  impl_->Send(std::move(request));
-}
-
-std::optional<Message> RemoteDance::Next() { return impl_->Next(); }
-void RemoteDance::Cancel() noexcept { impl_->Cancel(); }
-
 struct Client::Impl {
   std::shared_ptr<Replicas> replicas;
 };
@@ -234,7 +157,7 @@ bool Client::IsServing() const {
 
 std::unique_ptr<RemoteDance> Client::StartDance(const DanceConfig& config) const {
   std::unique_ptr<RemoteDance> dance(
-      new RemoteDance(std::make_unique<RemoteDance::Impl>(impl_->replicas, config)));
+      new RemoteDance(std::make_unique<DanceCall>(impl_->replicas, ToProto(config)), config.audio));
   if (AreAsked(config.controls)) dance->SendControls(config.controls);
   return dance;
 }

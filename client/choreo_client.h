@@ -70,6 +70,8 @@ struct Options {
   std::function<void(const std::string& address, const Error& failure)> retried = {};
 };
 
+class DanceCall;
+
 /// A dance in progress, to which requests are sent while its frames arrive. If its server is lost,
 /// the dance resumes on the next one from the last continuation, with exactly the frames of an
 /// uninterrupted dance.
@@ -114,12 +116,17 @@ class RemoteDance {
   std::optional<Message> Next();
   /// Ends the dance; a concurrent Next throws Error(kCancelled). Idempotent.
   void Cancel() noexcept;
+  /// The dance in the API's own messages (client/dance_call.h), for programs that pass them on.
+  /// Call either its Next or this one's.
+  DanceCall& call() { return *call_; }
 
  private:
   friend class Client;
-  struct Impl;
-  explicit RemoteDance(std::unique_ptr<Impl> impl);
-  std::unique_ptr<Impl> impl_;
+  RemoteDance(std::unique_ptr<DanceCall> call, const AudioFormat& audio);
+
+  std::unique_ptr<DanceCall> call_;
+  AudioFormat audio_;
+  int joints_ = 0;  // of the header's skeleton, used only by Next
 };
 
 /// A complete dance.

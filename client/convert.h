@@ -18,7 +18,8 @@ v1::Keyframe ToProto(const KeyPose& key);
 /// Returns the samples as the bytes of little-endian floats.
 std::string ToPcmBytes(std::span<const float> samples);
 
-/// `joints`: the number of joints in the header's skeleton.
+/// Checks the lengths of the arrays. `joints`: the number of joints in the header's skeleton.
+void CheckFrames(const v1::Frames& frames, int joints);
 FrameBlock FromProto(const v1::Frames& frames, int joints);
 Continuation FromProto(const v1::Continuation& continuation);
 Report FromProto(const v1::QualityReport& report, const v1::Timing& timing);

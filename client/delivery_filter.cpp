@@ -1,5 +1,7 @@
 #include "client/delivery_filter.h"
 
+#include "model/core/error.h"
+
 namespace choreo::client {
 
 void DeliveryFilter::Restart(int64_t frame, std::vector<KeyPlace> late) {
@@ -10,18 +12,22 @@ void DeliveryFilter::Restart(int64_t frame, std::vector<KeyPlace> late) {
   }
 }
 
-bool DeliveryFilter::Admit(FrameBlock* block) {
-  if (block->first_frame > next_frame_) {
+bool DeliveryFilter::Admit(v1::Frames* frames) {
+  if (frames->first_frame() > next_frame_) {
     throw Error(ErrorCode::kInternal, "",
-                "the server left out frames: " + std::to_string(block->first_frame) +
+                "the server left out frames: " + std::to_string(frames->first_frame()) +
                     " came where " + std::to_string(next_frame_) + " was due");
   }
-  const auto known = static_cast<std::ptrdiff_t>(next_frame_ - block->first_frame);
-  if (known >= static_cast<std::ptrdiff_t>(block->poses.size())) return false;
-  block->poses.erase(block->poses.begin(), block->poses.begin() + known);
-  block->contacts.erase(block->contacts.begin(), block->contacts.begin() + known);
-  block->first_frame = next_frame_;
-  next_frame_ += static_cast<int64_t>(block->poses.size());
+  const int64_t known = next_frame_ - frames->first_frame();
+  const int64_t left = frames->count() - known;
+  if (left <= 0) return false;
+  for (auto* numbers :
+       {frames->mutable_root_positions(), frames->mutable_rotations(), frames->mutable_contacts()})
+    numbers->erase(numbers->begin(),
+                   numbers->begin() + known * (numbers->size() / frames->count()));
+  frames->set_first_frame(next_frame_);
+  frames->set_count(static_cast<int32_t>(left));
+  next_frame_ += left;
   return true;
 }
 
@@ -32,25 +38,22 @@ bool DeliveryFilter::TakeExpected(const KeyPlace& place) {
   return true;
 }
 
-bool DeliveryFilter::Admit(const DanceEvent& event) {
-  if (const auto* rejected = std::get_if<KeyRejected>(&event)) {
-    const KeyPlace place = {rejected->id, rejected->frame};
+bool DeliveryFilter::Admit(const v1::Event& event) {
+  if (event.has_keyframe_rejected()) {
+    const KeyPlace place = {event.keyframe_rejected().id(), event.frame()};
     if (TakeExpected(place)) return false;
     rejected_.insert(place);
     return true;
   }
-  if (const auto* reached = std::get_if<KeyReached>(&event)) {
-    const KeyPlace place = {reached->id, reached->frame};
+  if (event.has_keyframe_reached()) {
+    const KeyPlace place = {event.keyframe_reached().id(), event.frame()};
     TakeExpected(place);
     return reached_.insert(place).second;
   }
-  if (const auto* warning = std::get_if<Warning>(&event)) {
-    return warnings_.emplace(warning->message, warning->frame).second;
-  }
-  if (const auto* beat = std::get_if<Beat>(&event)) {
-    if (beat->time_s <= last_beat_s_) return false;
-    last_beat_s_ = beat->time_s;
-  }
+  if (event.has_warning())
+    return warnings_.emplace(event.warning().message(), event.frame()).second;
+  if (!event.has_beat() || event.time() <= last_beat_s_) return false;
+  last_beat_s_ = event.time();
   return true;
 }
 

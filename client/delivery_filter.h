@@ -1,11 +1,12 @@
 #pragma once
 
+#include <cstdint>
 #include <set>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "client/choreo_client.h"
+#include "choreo/v1/choreography.pb.h"
 
 namespace choreo::client {
 
@@ -26,9 +27,9 @@ class DeliveryFilter {
   void Restart(int64_t frame, std::vector<KeyPlace> late);
   /// Removes the frames that were delivered already. Returns false if none is left. Throws
   /// Error(kInternal) if frames are missing.
-  bool Admit(FrameBlock* block);
-  /// Returns false for an event that was delivered already.
-  bool Admit(const DanceEvent& event);
+  bool Admit(v1::Frames* frames);
+  /// Returns false for an event that was delivered already, or of a kind unknown to this version.
+  bool Admit(const v1::Event& event);
 
  private:
   bool TakeExpected(const KeyPlace& place);

@@ -4,16 +4,20 @@
 
 namespace choreo::client {
 
-FrameBlock FromProto(const v1::Frames& frames, int joints) {
+void CheckFrames(const v1::Frames& frames, int joints) {
   const int64_t count = frames.count();
   if (count < 1 || frames.root_positions_size() != 3 * count ||
       frames.rotations_size() != 3 * count * joints || frames.contacts_size() != 4 * count) {
     throw wire::Broken("frames whose arrays do not have the length that their count asks for");
   }
+}
+
+FrameBlock FromProto(const v1::Frames& frames, int joints) {
+  CheckFrames(frames, joints);
   FrameBlock out;
   out.first_frame = frames.first_frame();
   out.candidate = frames.candidate();
-  out.poses.resize(static_cast<size_t>(count));
+  out.poses.resize(static_cast<size_t>(frames.count()));
   out.contacts.resize(out.poses.size());
   const float* rotations = frames.rotations().data();
   const float* roots = frames.root_positions().data();

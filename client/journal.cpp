@@ -5,18 +5,29 @@
 #include <map>
 
 namespace choreo::client {
+namespace {
 
-void Journal::Append(v1::StreamDanceRequest request) {
+/// Small enough for a dance to begin early, large enough to be cheap.
+constexpr size_t kMusicChunkBytes = size_t{128} * 1024;
+
+}  // namespace
+
+void Journal::Add(v1::StreamDanceRequest request) {
   requests_.push_back(std::make_shared<const v1::StreamDanceRequest>(std::move(request)));
 }
 
-void Journal::AppendMusic(std::string bytes) {
-  const int64_t samples = static_cast<int64_t>(bytes.size()) / std::max(1, bytes_per_sample_);
-  v1::StreamDanceRequest request;
-  request.mutable_audio()->set_data(std::move(bytes));
-  request.mutable_audio()->set_first_sample(end_sample_);
-  end_sample_ += samples;
-  Append(std::move(request));
+void Journal::Append(v1::StreamDanceRequest request) {
+  if (!request.has_audio()) return Add(std::move(request));
+  const auto unit = static_cast<size_t>(std::max(1, bytes_per_sample_));
+  const size_t chunk = kMusicChunkBytes / unit * unit;
+  const std::string& bytes = request.audio().data();
+  for (size_t first = 0; first < bytes.size(); first += chunk) {
+    v1::StreamDanceRequest piece;
+    piece.mutable_audio()->set_data(bytes.substr(first, chunk));
+    piece.mutable_audio()->set_first_sample(end_sample_);
+    end_sample_ += static_cast<int64_t>(piece.audio().data().size() / unit);
+    Add(std::move(piece));
+  }
 }
 
 Journal::Request Journal::TakeNext() {

@@ -22,9 +22,8 @@ class Journal {
   Journal(int bytes_per_sample, int64_t first_sample)
       : bytes_per_sample_(bytes_per_sample), end_sample_(first_sample) {}
 
+  /// Splits music into pieces, and numbers their samples; a file's samples are bytes.
   void Append(v1::StreamDanceRequest request);
-  /// Appends music; a file's samples are bytes.
-  void AppendMusic(std::string bytes);
   /// Returns the next request that the present server has not received, or null.
   Request TakeNext();
   /// Restarts at the first request, for another server.
@@ -37,6 +36,8 @@ class Journal {
   std::vector<std::pair<std::string, int64_t>> KeysBefore(int64_t frame, double fps) const;
 
  private:
+  void Add(v1::StreamDanceRequest request);
+
   int bytes_per_sample_;
   int64_t end_sample_;
   std::vector<Request> requests_;

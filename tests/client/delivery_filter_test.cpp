@@ -6,68 +6,97 @@
 
 namespace choreo::client::delivery_filter_test {
 
-FrameBlock Block(int64_t first, int64_t count) {
-  FrameBlock block;
-  block.first_frame = first;
-  for (int64_t i = 0; i < count; ++i) {
-    block.poses.emplace_back().root_position.x() = static_cast<double>(first + i);
-    block.contacts.push_back({static_cast<float>(first + i)});
+/// Frames of two joints, full of their numbers.
+v1::Frames Block(int64_t first, int count) {
+  v1::Frames frames;
+  frames.set_first_frame(first);
+  frames.set_count(count);
+  for (int i = 0; i < count; ++i) {
+    const auto number = static_cast<float>(first + i);
+    for (int j = 0; j < 3; ++j) frames.add_root_positions(number);
+    for (int j = 0; j < 6; ++j) frames.add_rotations(number);
+    for (int j = 0; j < 4; ++j) frames.add_contacts(number);
   }
-  return block;
+  return frames;
+}
+
+v1::Event At(int64_t frame) {
+  v1::Event event;
+  event.set_frame(frame);
+  return event;
+}
+
+v1::Event Reached(const std::string& id, int64_t frame) {
+  v1::Event event = At(frame);
+  event.mutable_keyframe_reached()->set_id(id);
+  return event;
+}
+
+v1::Event Rejected(const std::string& id, int64_t frame) {
+  v1::Event event = At(frame);
+  event.mutable_keyframe_rejected()->set_id(id);
+  return event;
+}
+
+v1::Event Warned(const std::string& message, int64_t frame) {
+  v1::Event event = At(frame);
+  event.mutable_warning()->set_message(message);
+  return event;
+}
+
+v1::Event BeatAt(double seconds, int64_t frame) {
+  v1::Event event = At(frame);
+  event.set_time(seconds);
+  event.mutable_beat();
+  return event;
 }
 
 TEST(DeliveryFilterTest, CutsAwayFramesThatWereDelivered) {
   DeliveryFilter filter(10);
-  FrameBlock first = Block(10, 5);
+  v1::Frames first = Block(10, 5);
   EXPECT_TRUE(filter.Admit(&first));
   EXPECT_EQ(filter.next_frame(), 15);
 
-  FrameBlock known = Block(10, 3);
+  v1::Frames known = Block(10, 3);
   EXPECT_FALSE(filter.Admit(&known));
-  FrameBlock overlapping = Block(12, 6);
+  v1::Frames overlapping = Block(12, 6);
   ASSERT_TRUE(filter.Admit(&overlapping));
-  EXPECT_EQ(overlapping.first_frame, 15);
-  ASSERT_EQ(overlapping.poses.size(), 3U);
-  EXPECT_EQ(overlapping.poses[0].root_position.x(), 15);
-  EXPECT_EQ(overlapping.contacts[2][0], 17);
+  EXPECT_EQ(overlapping.SerializeAsString(), Block(15, 3).SerializeAsString());
   EXPECT_EQ(filter.next_frame(), 18);
 }
 
 TEST(DeliveryFilterTest, NoticesMissingFrames) {
   DeliveryFilter filter(0);
-  FrameBlock late = Block(1, 2);
+  v1::Frames late = Block(1, 2);
   ExpectError(ErrorCode::kInternal, "1 came where 0 was due", [&] { filter.Admit(&late); });
 }
 
 TEST(DeliveryFilterTest, ReportsKeysBeatsAndWarningsOnce) {
   DeliveryFilter filter(0);
   for (const bool is_new : {true, false}) {
-    EXPECT_EQ(filter.Admit(DanceEvent(KeyReached{.id = "a", .frame = 30})), is_new);
-    EXPECT_EQ(filter.Admit(DanceEvent(Beat{.frame = 12, .time_s = 0.4})), is_new);
-    EXPECT_EQ(filter.Admit(DanceEvent(Warning{.frame = 3, .message = "short"})), is_new);
+    EXPECT_EQ(filter.Admit(Reached("a", 30)), is_new);
+    EXPECT_EQ(filter.Admit(BeatAt(0.4, 12)), is_new);
+    EXPECT_EQ(filter.Admit(Warned("short", 3)), is_new);
   }
-  EXPECT_TRUE(filter.Admit(DanceEvent(KeyReached{.id = "a", .frame = 60})));
-  EXPECT_TRUE(filter.Admit(DanceEvent(Beat{.frame = 13, .time_s = 0.43})));
-  EXPECT_TRUE(filter.Admit(DanceEvent(Beat{.frame = 13, .time_s = 0.44})));  // of who gives them so
+  EXPECT_TRUE(filter.Admit(Reached("a", 60)));
+  EXPECT_TRUE(filter.Admit(BeatAt(0.43, 13)));
+  EXPECT_TRUE(filter.Admit(BeatAt(0.44, 13)));  // of who gives them so
 }
 
 TEST(DeliveryFilterTest, HidesOnlyRejectionsCausedByAResumption) {
-  const auto rejected = [](const std::string& id, int64_t frame) {
-    return DanceEvent(KeyRejected{.id = id, .frame = frame, .earliest_frame = 90, .reason = ""});
-  };
   DeliveryFilter filter(0);
-  EXPECT_TRUE(filter.Admit(rejected("late", 80)));
-  EXPECT_TRUE(filter.Admit(rejected("late", 80)));  // tried twice
+  EXPECT_TRUE(filter.Admit(Rejected("late", 80)));
+  EXPECT_TRUE(filter.Admit(Rejected("late", 80)));  // tried twice
   filter.Restart(60, {{"danced", 30}});
-  EXPECT_FALSE(filter.Admit(rejected("danced", 30)));
-  EXPECT_FALSE(filter.Admit(rejected("late", 80)));
-  EXPECT_FALSE(filter.Admit(rejected("late", 80)));
-  EXPECT_TRUE(filter.Admit(rejected("danced", 30)));  // asked for again, in vain
-  EXPECT_TRUE(filter.Admit(rejected("late", 80)));
+  EXPECT_FALSE(filter.Admit(Rejected("danced", 30)));
+  EXPECT_FALSE(filter.Admit(Rejected("late", 80)));
+  EXPECT_FALSE(filter.Admit(Rejected("late", 80)));
+  EXPECT_TRUE(filter.Admit(Rejected("danced", 30)));  // asked for again, in vain
+  EXPECT_TRUE(filter.Admit(Rejected("late", 80)));
 }
 
 TEST(DeliveryFilterTest, HidesRepeatedRejectionsOfKeysWithoutAFrame) {
-  const DanceEvent rejected(KeyRejected{.id = "timeless", .frame = -1});
+  const v1::Event rejected = Rejected("timeless", -1);
   DeliveryFilter filter(0);
   EXPECT_TRUE(filter.Admit(rejected));
   filter.Restart(60, {});
@@ -76,12 +105,12 @@ TEST(DeliveryFilterTest, HidesRepeatedRejectionsOfKeysWithoutAFrame) {
 }
 
 TEST(DeliveryFilterTest, ShowsRejectionsOfReachedKeysAfterAResumption) {
-  const DanceEvent reached(KeyReached{.id = "a", .frame = 30});
+  const v1::Event reached = Reached("a", 30);
   DeliveryFilter filter(0);
   EXPECT_TRUE(filter.Admit(reached));
   filter.Restart(60, {{"a", 30}});
   EXPECT_FALSE(filter.Admit(reached));
-  EXPECT_TRUE(filter.Admit(DanceEvent(KeyRejected{.id = "a", .frame = 30})));  // sent anew
+  EXPECT_TRUE(filter.Admit(Rejected("a", 30)));  // sent anew
 }
 
 }  // namespace choreo::client::delivery_filter_test

@@ -21,6 +21,12 @@ v1::StreamDanceRequest Removal(const std::string& id) {
   return request;
 }
 
+v1::StreamDanceRequest Music(size_t bytes) {
+  v1::StreamDanceRequest request;
+  request.mutable_audio()->set_data(std::string(bytes, 'x'));
+  return request;
+}
+
 int Drain(Journal* journal) {
   int taken = 0;
   while (journal->TakeNext()) ++taken;
@@ -30,7 +36,7 @@ int Drain(Journal* journal) {
 TEST(JournalTest, SendsEverythingInOrderAndAgainAfterARewind) {
   Journal journal(4, 0);
   journal.Append(KeyAt("a", 10));
-  journal.AppendMusic(std::string(8, 'x'));
+  journal.Append(Music(8));
   for (int attempt = 0; attempt < 2; ++attempt) {
     EXPECT_EQ(journal.TakeNext()->keyframe().id(), "a");
     EXPECT_EQ(journal.TakeNext()->audio().data().size(), 8U);
@@ -42,23 +48,37 @@ TEST(JournalTest, SendsEverythingInOrderAndAgainAfterARewind) {
 TEST(JournalTest, NumbersTheMusic) {
   Journal journal(4, 100);
   EXPECT_EQ(journal.first_sample(), 100);
-  journal.AppendMusic(std::string(40, 'x'));
-  journal.AppendMusic(std::string(20, 'x'));
+  journal.Append(Music(40));
+  journal.Append(Music(20));
   EXPECT_EQ(journal.TakeNext()->audio().first_sample(), 100);
   EXPECT_EQ(journal.TakeNext()->audio().first_sample(), 110);
 }
 
+TEST(JournalTest, SplitsLongMusicBetweenSamples) {
+  Journal journal(12, 0);
+  journal.Append(Music(300'000));
+  int64_t samples = 0;
+  int pieces = 0;
+  for (; const Journal::Request piece = journal.TakeNext(); ++pieces) {
+    EXPECT_EQ(piece->audio().first_sample(), samples);
+    EXPECT_EQ(piece->audio().data().size() % 12, 0U);
+    samples += static_cast<int64_t>(piece->audio().data().size()) / 12;
+  }
+  EXPECT_EQ(pieces, 3);
+  EXPECT_EQ(samples, 25'000);
+}
+
 TEST(JournalTest, ForgetsMusicThatIsNoLongerNeededAndNothingElse) {
   Journal journal(4, 0);
-  journal.AppendMusic(std::string(40, 'x'));  // samples 0 to 9
+  journal.Append(Music(40));  // samples 0 to 9
   journal.Append(KeyAt("a", 10));
-  journal.AppendMusic(std::string(40, 'x'));  // 10 to 19
-  journal.AppendMusic(std::string(40, 'x'));  // 20 to 29
+  journal.Append(Music(40));  // 10 to 19
+  journal.Append(Music(40));  // 20 to 29
   EXPECT_EQ(Drain(&journal), 4);
   journal.ForgetMusicBefore(19);
   EXPECT_EQ(journal.first_sample(), 10);
   EXPECT_EQ(journal.TakeNext(), nullptr);
-  journal.AppendMusic(std::string(40, 'x'));
+  journal.Append(Music(40));
   EXPECT_EQ(journal.TakeNext()->audio().first_sample(), 30);
   journal.Rewind();
   EXPECT_EQ(Drain(&journal), 4);
@@ -66,13 +86,13 @@ TEST(JournalTest, ForgetsMusicThatIsNoLongerNeededAndNothingElse) {
 
 TEST(JournalTest, KeepsUnsentMessagesAndWholeFiles) {
   Journal samples(4, 0);
-  samples.AppendMusic(std::string(40, 'x'));
+  samples.Append(Music(40));
   samples.ForgetMusicBefore(1000);
   EXPECT_EQ(Drain(&samples), 1);
 
   Journal file(0, 0);
-  file.AppendMusic("RIFF");
-  file.AppendMusic("WAVE");
+  file.Append(Music(4));
+  file.Append(Music(4));
   EXPECT_EQ(Drain(&file), 2);
   file.ForgetMusicBefore(1000);
   file.Rewind();

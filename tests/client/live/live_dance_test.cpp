@@ -2,8 +2,6 @@
 
 #include <fcntl.h>
 #include <gmock/gmock.h>
-#include <grpcpp/health_check_service_interface.h>
-#include <grpcpp/server_builder.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -15,11 +13,10 @@
 #include <optional>
 #include <thread>
 
-#include "choreo/v1/choreography.grpc.pb.h"
 #include "client/authoring/keys/pose_library.h"
 #include "model/motion/kinematics.h"
-#include "proto/wire/convert.h"
 #include "tests/client/command_fixture.h"
+#include "tests/client/scripted_server.h"
 #include "tests/client/test_music.h"
 #include "tests/support/expect_error.h"
 
@@ -180,41 +177,16 @@ TEST_F(LiveDanceTest, FailsIfItsMusicIsOverBeforeThereIsRoom) {
   }
 }
 
-// A server that ends each dance at once and says that it reached a key.
-class LyingServer final : public v1::Choreography::Service {
- public:
-  LyingServer() {
-    grpc::ServerBuilder builder;
-    builder.AddListeningPort("127.0.0.1:0", grpc::InsecureServerCredentials(), &port_);
-    builder.RegisterService(this);
-    server_ = builder.BuildAndStart();
-    server_->GetHealthCheckService()->SetServingStatus("choreo.v1.Choreography", true);
-  }
-  std::string address() const { return "127.0.0.1:" + std::to_string(port_); }
-  grpc::Status StreamDance(
-      grpc::ServerContext*,
-      grpc::ServerReaderWriter<v1::StreamDanceResponse, v1::StreamDanceRequest>* stream) override {
-    v1::StreamDanceRequest request;
-    stream->Read(&request);
-    v1::StreamDanceResponse response;
-    *response.mutable_header()->mutable_skeleton() = wire::ToProto(Skeleton::Smpl24());
-    response.mutable_header()->set_frame_rate(30);
-    response.mutable_header()->set_model_frame_rate(30);
-    stream->Write(response);
-    response.mutable_summary()->mutable_report()->add_keyframes()->set_id("nobody's");
-    stream->Write(response);
-    return grpc::Status::OK;
-  }
-
- private:
-  int port_ = 0;
-  std::unique_ptr<grpc::Server> server_;
-};
-
 TEST_F(LiveDanceTest, FailsAtAReportOfAKeyThatNobodySent) {
   const client::ModelDescription model =
       client::Client({.addresses = {server_.address()}}).GetServerInfo().models.front();
-  const LyingServer server;
+  const ScriptedServer server([](ScriptedServer::Stream& stream) {
+    stream.Write(ScriptedServer::Header());
+    v1::StreamDanceResponse end;
+    end.mutable_summary()->mutable_report()->add_keyframes()->set_id("nobody's");
+    stream.Write(end);
+    return grpc::Status::OK;
+  });
   const client::Client client({.addresses = {server.address()}});
   live::LiveDance dance(
       client, model, {},

@@ -3,11 +3,13 @@
 #include <condition_variable>
 #include <memory>
 #include <mutex>
-#include <string_view>
+#include <optional>
+#include <string>
 #include <thread>
+#include <variant>
 
-#include "client/choreo_client.h"
-#include "client/convert.h"
+#include "choreo/v1/choreography.grpc.pb.h"
+#include "client/dance_messages.h"
 #include "client/delivery_filter.h"
 #include "client/journal.h"
 #include "client/replicas.h"
@@ -52,34 +54,45 @@ class Attempt {
   std::thread sender_;
 };
 
-/// The implementation of RemoteDance. Next() runs attempt after attempt until the summary.
-struct RemoteDance::Impl {
+/// A dance in the API's own messages. If its server is lost, the dance resumes on the next one, as
+/// RemoteDance says. Thread safety as RemoteDance's.
+class DanceCall {
  public:
-  Impl(std::shared_ptr<Replicas> replicas, const DanceConfig& config);
-  ~Impl();
+  /// A server's response, or the news that another server continues the dance. That server's header
+  /// is left out.
+  using Answer = std::variant<v1::StreamDanceResponse, Resumed>;
 
+  /// `config`: its music is absent, 32-bit floats or a file.
+  DanceCall(std::shared_ptr<Replicas> replicas, v1::DanceConfig config);
+  ~DanceCall();  ///< cancels a dance that has not ended
+  DanceCall(const DanceCall&) = delete;
+  DanceCall& operator=(const DanceCall&) = delete;
+
+  /// Sends any request but a config. Numbers the samples of music, and splits it.
   void Send(v1::StreamDanceRequest request);
-  void SendMusic(std::string_view bytes);
-  int bytes_per_sample() const { return bytes_per_sample_; }
-  AudioKind audio_kind() const { return audio_kind_; }
-  std::optional<Message> Next();
+  /// Waits for the next answer, each of which comes once however often the dance resumes. Skips
+  /// those that this version does not know. Returns nullopt after the summary, whose report counts
+  /// the frames of all servers. Throws Error if a server breaks the protocol, or the dance failed
+  /// and cannot be resumed.
+  std::optional<Answer> Next();
+  /// Ends the dance; a concurrent Next throws Error(kCancelled). Idempotent.
   void Cancel() noexcept;
 
  private:
   void Connect();
   void Recover(const grpc::Status& status);
-  /// Returns the part of a response for the caller, if any.
-  std::optional<Message> Handle(const v1::StreamDanceResponse& response);
+  /// Returns what the caller gets of a response, if anything.
+  std::optional<Answer> Handle(v1::StreamDanceResponse* response);
   /// Whether a server that restarts the dance would generate other frames, which
   /// Options::allow_inexact_resume does not allow.
   bool IsOtherDance(const v1::Header& header) const;
-  Message HandleHeader(const v1::Header& header);
-  Message HandleSummary(const v1::DanceSummary& summary);
+  void Begin(const v1::Header& header);
+  Resumed Resume(const v1::Header& header);
+  void HandleContinuation(const v1::Continuation& continuation);
+  void HandleSummary(v1::DanceSummary* summary);
 
   std::shared_ptr<Replicas> replicas_;
   Patience patience_;
-  AudioKind audio_kind_;
-  int bytes_per_sample_;
   v1::DanceConfig config_;  // used only by Next
 
   std::mutex
@@ -93,7 +106,7 @@ struct RemoteDance::Impl {
   std::string fingerprint_;  // of the last server that generated frames
   std::string first_stream_id_;
   std::optional<DeliveryFilter> filter_;
-  std::string lost_because_;  // if not empty, the next header is a resumed dance's
+  std::string lost_because_;  // the reason for the next Resumed
   bool complete_ = false;
 };
 
