@@ -11,7 +11,6 @@
 #include "model/formats/motion_file.h"
 #include "studio/from_page.h"
 #include "studio/scratch_folder.h"
-#include "studio/to_page.h"
 
 namespace choreo::studio {
 namespace {
@@ -70,10 +69,10 @@ Response ReadClip(const StudioContext& context, const File& file) {
   RequireMotionFile(file.name());
   const std::filesystem::path path = PlaceFor(folder, file.name());
   WriteFile(path, file.data());
-  client::FinishedDance dance;
+  Motion motion;
   std::vector<std::string> notes;
   try {
-    dance.motion =
+    motion =
         ReadMotion(path, context.model().skeleton, OtherSkeleton::kRetarget, {.notes = &notes});
   } catch (const Error& error) {
     // The page does not know our path.
@@ -81,8 +80,10 @@ Response ReadClip(const StudioContext& context, const File& file) {
     throw field.starts_with(ours) ? error.Of(file.name() + field.substr(ours.size())) : error;
   }
   Response response;
-  *response.mutable_clip() = ToProto(dance);
-  for (const std::string& note : notes) response.mutable_clip()->add_notes(note);
+  Clip* clip = response.mutable_clip();
+  clip->set_frame_rate(motion.fps);
+  *clip->mutable_frames() = wire::ToProto(0, motion.frames, {});
+  for (const std::string& note : notes) clip->add_notes(note);
   return response;
 }
 

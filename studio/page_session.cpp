@@ -3,17 +3,17 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <type_traits>
 #include <utility>
+#include <variant>
 
 #include "client/authoring/keys/key_faults.h"
-#include "client/convert.h"
+#include "client/dance_call.h"
+#include "proto/wire/convert.h"
 #include "studio/answers.h"
 #include "studio/company.h"
 #include "studio/from_page.h"
 #include "studio/page_project.h"
 #include "studio/project_dance.h"
-#include "studio/to_page.h"
 
 namespace choreo::studio {
 namespace {
@@ -66,44 +66,38 @@ void PageSession::ReceiveLive(uint32_t call, const v1::StreamDanceRequest& reque
   const auto found = dances_.find(call);
   if (found == dances_.end()) return;  // ended; the page may not know yet
   if (!found->second.ear) throw InvalidArgument("live", "is for dances to live music");
-  client::RemoteDance& dance = *found->second.dance;
   switch (request.request_case()) {
-    case v1::StreamDanceRequest::kKeyframe: {
-      const client::KeyPose key = FromProto(request.keyframe(), context_.model().skeleton);
-      SendFaults(call, {key});
-      return dance.SendKey(key);
-    }
-    case v1::StreamDanceRequest::kRemoveKeyframe:
-      return dance.RemoveKey(request.remove_keyframe().id());
+    case v1::StreamDanceRequest::kKeyframe:
+      SendFaults(call, {FromProto(request.keyframe(), context_.model().skeleton)});
+      break;
     case v1::StreamDanceRequest::kGenerateUntil:
       found->second.granted = request.generate_until().frame();
-      return dance.GenerateUntil(found->second.granted);
-    case v1::StreamDanceRequest::kKeyframesComplete:
-      return dance.CompleteKeys();
+      break;
     case v1::StreamDanceRequest::kAudio:
-      return ReceiveMusic(&found->second, request.audio());
+      ListenTo(request.audio(), &found->second);
+      break;
+    case v1::StreamDanceRequest::kRemoveKeyframe:
+    case v1::StreamDanceRequest::kKeyframesComplete:
     case v1::StreamDanceRequest::kEndOfAudio:
-      return dance.EndAudio();
+      break;
     default:
       throw InvalidArgument("live", "has this setting in its project");
   }
+  found->second.dance->call().Send(request);
 }
 
-void PageSession::ReceiveMusic(Dancing* dancing, const v1::Audio& audio) {
+void PageSession::ListenTo(const v1::Audio& audio, Dancing* dancing) {
   const std::vector<float> samples = SamplesOf(audio);
-  // Others are refused below.
+  // The server refuses others.
   const bool is_sound =
       std::ranges::all_of(samples, [](float value) { return std::isfinite(value); });
-  if (is_sound) {
-    live::MusicEar::Ahead heard = dancing->ear->Hear(samples);
-    // Beats of frames that may exist already would come too late.
-    heard.beats.Keep(static_cast<double>(dancing->granted) / context_.model().fps,
-                     kMaxAudioSeconds);
-    if (!heard.beats.beats.empty())
-      dancing->dance->SendBeats(heard.beats.beats, heard.beats.downbeats, heard.beats.confidence);
-    if (heard.passage) dancing->dance->SendPassages(std::array{*heard.passage});
-  }
-  dancing->dance->SendSamples(samples);
+  if (!is_sound) return;
+  live::MusicEar::Ahead heard = dancing->ear->Hear(samples);
+  // Beats of frames that may exist already would come too late.
+  heard.beats.Keep(static_cast<double>(dancing->granted) / context_.model().fps, kMaxAudioSeconds);
+  if (!heard.beats.beats.empty())
+    dancing->dance->SendBeats(heard.beats.beats, heard.beats.downbeats, heard.beats.confidence);
+  if (heard.passage) dancing->dance->SendPassages(std::array{*heard.passage});
 }
 
 void PageSession::ReceiveLiveBeats(uint32_t call, const LiveBeats& beats) {
@@ -118,7 +112,7 @@ void PageSession::SendFaults(uint32_t call, const std::vector<client::KeyPose>& 
        authoring::KeyFaults(keys, context_.model().fps, context_.model().skeleton)) {
     if (fault.frame < first_frame) continue;
     Response response;
-    *response.mutable_dance() = ToProto(fault, context_.model().fps);
+    *response.mutable_dance()->mutable_event() = wire::ToProto(fault, context_.model().fps);
     Answer(call, std::move(response));
   }
 }
@@ -172,25 +166,18 @@ void PageSession::ReadDance(uint32_t call, Dancing* dancing) {
     dancing->over = true;
   };
   try {
-    while (const std::optional<client::Message> message = dancing->dance->Next()) {
+    while (std::optional<client::DanceCall::Answer> answer = dancing->dance->call().Next()) {
       Response response;
-      std::visit(
-          [&](const auto& part) {
-            using Part = std::decay_t<decltype(part)>;
-            if constexpr (std::is_same_v<Part, client::Resumed>) {
-              response.mutable_resumed()->set_reason(part.reason);
-              response.mutable_resumed()->set_exact(part.exact);
-            } else if constexpr (std::is_same_v<Part, client::Continuation>) {
-              // The page needs none: the client library resumes dances.
-            } else if constexpr (requires { DanceEvent(part); }) {
-              *response.mutable_dance() = ToProto(part, context_.model().fps);
-            } else {
-              *response.mutable_dance() = ToProto(part);
-            }
-          },
-          *message);
+      if (const auto* resumed = std::get_if<client::Resumed>(&*answer)) {
+        response.mutable_resumed()->set_reason(resumed->reason);
+        response.mutable_resumed()->set_exact(resumed->exact);
+      } else {
+        *response.mutable_dance() = std::get<v1::StreamDanceResponse>(*std::move(answer));
+      }
+      // The page needs none: the client library resumes dances.
+      if (response.dance().has_continuation()) continue;
       if (response.dance().has_summary()) end();
-      if (response.response_case() != Response::RESPONSE_NOT_SET) Answer(call, std::move(response));
+      Answer(call, std::move(response));
     }
     end();
   } catch (const Error& error) {

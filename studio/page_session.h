@@ -43,8 +43,8 @@ class PageSession {
   };
 
   void ReceiveLive(uint32_t call, const v1::StreamDanceRequest& request);
-  /// Sends a live dance its music, after the beats and repeats predicted from it.
-  void ReceiveMusic(Dancing* dancing, const v1::Audio& audio);
+  /// Sends a live dance the beats and repeats predicted from its music.
+  void ListenTo(const v1::Audio& audio, Dancing* dancing);
   void ReceiveLiveBeats(uint32_t call, const LiveBeats& beats);
   void StartDance(uint32_t call, const Dance& request);
   /// Sends warnings, at the keys' frames, about poses that human bodies cannot reach.

@@ -11,7 +11,6 @@
 #include "model/core/error.h"
 #include "studio/from_page.h"
 #include "studio/page_project.h"
-#include "studio/to_page.h"
 
 namespace choreo::studio {
 namespace {
@@ -102,7 +101,8 @@ Response MakeTakes(const StudioContext& context, const Song* song, const Retake&
     *answer.add_warnings() = wire::ToProto(warning, model.fps);
   };
   for (const client::EditedDance& take : made) {
-    *answer.add_frames() = ToProto(client::PartOf(take.dance, gap.from + 1, gap.to)).frames();
+    const auto [motion, contacts] = client::PartOf(take.dance, gap.from + 1, gap.to);
+    *answer.add_frames() = wire::ToProto(0, motion.frames, contacts);
     std::ranges::for_each(take.warnings, warn);
   }
   // Ways into the gap and out of it count, too.

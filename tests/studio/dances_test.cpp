@@ -1,4 +1,5 @@
 #include <gmock/gmock.h>
+#include <grpcpp/create_channel.h>
 #include <gtest/gtest.h>
 #include <signal.h>
 
@@ -19,6 +20,7 @@
 #include "studio/page_session.h"
 #include "studio/project_dance.h"
 #include "studio/server_supervisor.h"
+#include "tests/client/scripted_server.h"
 #include "tests/studio/opened_studio.h"
 
 namespace choreo::studio::dances_test {
@@ -404,6 +406,48 @@ TEST_F(StudioTest, RefusesInvalidMusic) {
   // A dance to the song takes no other music.
   page.Say(3, DanceRequest(3000, 1));
   EXPECT_EQ(failure(piece), "live: is for dances to live music");
+}
+
+// Also fields of a later version.
+TEST_F(StudioTest, RelaysTheMessagesOfALiveDance) {
+  v1::GetServerInfoResponse info;
+  grpc::ClientContext call;
+  ASSERT_TRUE(v1::Choreography::NewStub(
+                  grpc::CreateChannel(server_.address(), grpc::InsecureChannelCredentials()))
+                  ->GetServerInfo(&call, {}, &info)
+                  .ok());
+  std::vector<v1::StreamDanceResponse> sent(4, ScriptedServer::Header());
+  AddUnknownField(sent[0].mutable_header());
+  sent[1].mutable_event()->mutable_warning()->set_code(static_cast<v1::WarningCode>(99));
+  AddUnknownField(sent[1].mutable_event()->mutable_warning());
+  sent[2].mutable_continuation()->set_frame(10);
+  AddUnknownField(sent[3].mutable_summary()->mutable_report());
+  std::vector<v1::StreamDanceRequest> received(1);
+  const ScriptedServer scripted(
+      [&](ScriptedServer::Stream& stream) {
+        while (stream.Read(&received.back()) && !received.back().has_keyframes_complete())
+          received.emplace_back();
+        for (const v1::StreamDanceResponse& response : sent) stream.Write(response);
+        return grpc::Status::OK;
+      },
+      info);
+  const Opened studio(scripted.address());
+  Page page(studio.port());
+  page.Say(2, LiveRequest(7, 16000));
+  Request key;
+  v1::Keyframe* asked = key.mutable_live()->mutable_keyframe();
+  asked->set_id("key");
+  asked->set_time(2);
+  *asked->mutable_pose() = page.welcome().poses(1).pose();
+  AddUnknownField(asked);
+  page.Say(2, key);
+  EndMusic(2, &page);
+  for (const size_t i : {0U, 1U, 3U})
+    EXPECT_EQ(page.Read().dance().SerializeAsString(), sent[i].SerializeAsString()) << i;
+  ASSERT_EQ(received.size(), 4U);
+  EXPECT_TRUE(received[0].config().reject_invalid_keys());
+  EXPECT_EQ(received[1].SerializeAsString(), key.live().SerializeAsString());
+  EXPECT_TRUE(received[2].has_end_of_audio());
 }
 
 // A choreod of our own that is killed in the middle of a dance restarts, and the dance continues.
