@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <climits>
-#include <cstring>
 
 #include "client/convert.h"
 #include "model/audio/signal/format.h"
@@ -95,16 +94,6 @@ live::LiveBeatHint FromProto(const LiveBeats& beats) {
     hint.downbeat_s = beats.downbeat();
   }
   return hint;
-}
-
-std::vector<float> SamplesOf(const v1::Audio& audio) {
-  const std::string& bytes = audio.data();
-  if (bytes.size() % sizeof(float) != 0)
-    throw InvalidArgument("audio.data",
-                          std::to_string(bytes.size()) + " bytes are not whole floats");
-  std::vector<float> samples(bytes.size() / sizeof(float));
-  std::memcpy(samples.data(), bytes.data(), bytes.size());
-  return samples;
 }
 
 client::FinishedDance FromProto(const Clip& clip, const Skeleton& skeleton) {

@@ -21,8 +21,6 @@ client::AudioFormat FromProto(const v1::AudioFormat& format);
 /// Normalises rotations, which in files may exceed a half turn.
 std::vector<Pose> PosesOf(const v1::History& history, const Skeleton& skeleton);
 live::LiveBeatHint FromProto(const LiveBeats& beats);
-/// The samples of all pieces, in order.
-std::vector<float> SamplesOf(const v1::Audio& audio);
 client::FinishedDance FromProto(const Clip& clip, const Skeleton& skeleton);
 
 /// The music's counts, from a message with its beats and ones.

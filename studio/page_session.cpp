@@ -8,6 +8,7 @@
 
 #include "client/authoring/keys/key_faults.h"
 #include "client/dance_call.h"
+#include "model/audio/signal/pcm.h"
 #include "proto/wire/convert.h"
 #include "studio/answers.h"
 #include "studio/company.h"
@@ -87,7 +88,8 @@ void PageSession::ReceiveLive(uint32_t call, const v1::StreamDanceRequest& reque
 }
 
 void PageSession::ListenTo(const v1::Audio& audio, Dancing* dancing) {
-  const std::vector<float> samples = SamplesOf(audio);
+  const std::vector<float> samples =
+      ReadPcm(audio.data(), /*floats=*/true, dancing->channels, "audio.data");
   // The server refuses others.
   const bool is_sound =
       std::ranges::all_of(samples, [](float value) { return std::isfinite(value); });
@@ -154,6 +156,7 @@ void PageSession::StartDance(uint32_t call, const Dance& request) {
   // Nothing fails from here on: every remaining call has a dance.
   Dancing& dancing = dances_[call];
   dancing.ear = std::move(ear);
+  dancing.channels = config.audio.channels;
   dancing.dance = std::move(dance);
   dancing.reader = std::jthread([this, call, &dancing] { ReadDance(call, &dancing); });
   SendFaults(call, all_keys, config.first_frame);

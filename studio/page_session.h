@@ -37,6 +37,7 @@ class PageSession {
   struct Dancing {
     std::unique_ptr<client::RemoteDance> dance;
     std::unique_ptr<live::MusicEar> ear;  // of a live dance
+    int channels = 0;                     // of its music
     int64_t granted = 0;                  // granted frames of a live dance
     bool over = false;                    // guarded by mutex_
     std::jthread reader;                  // last: uses the others

@@ -398,7 +398,11 @@ TEST_F(StudioTest, RefusesInvalidMusic) {
   page.Say(3, dance);
   Request piece;
   piece.mutable_live()->mutable_audio()->set_data("abc");
-  EXPECT_EQ(failure(piece), "audio.data: 3 bytes are not whole floats");
+  EXPECT_EQ(failure(piece), "audio.data: 3 bytes are not whole samples of 4 bytes");
+  format->set_channels(2);
+  page.Say(3, dance);
+  piece.mutable_live()->mutable_audio()->set_data(std::string(12, 0));
+  EXPECT_EQ(failure(piece), "audio.data: 12 bytes are not whole samples of 8 bytes");
   page.Say(3, dance);
   Request controls;
   controls.mutable_live()->mutable_controls();
