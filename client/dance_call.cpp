@@ -140,9 +140,7 @@ void DanceCall::Recover(const grpc::Status& status) {
   lock.lock();
   if (!header_) return;
   lost_because_ = status.error_message().empty() ? "lost" : status.error_message();
-  const int64_t frame =
-      config_.has_continuation() ? config_.continuation().frame() : header_->first_frame;
-  filter_->Restart(frame, journal_.KeysBefore(frame, header_->model_fps));
+  filter_->Restart();
 }
 
 std::optional<DanceCall::Answer> DanceCall::Handle(v1::StreamDanceResponse* response) {
@@ -179,7 +177,7 @@ void DanceCall::Begin(const v1::Header& header) {
   // The first output frame at or after the first frame.
   const double first =
       static_cast<double>(header_->first_frame) * header_->fps / header_->model_fps;
-  filter_.emplace(static_cast<int64_t>(std::ceil(first - 1e-9)));
+  filter_.emplace(header_->first_frame, static_cast<int64_t>(std::ceil(first - 1e-9)));
   // Another server must generate the same dance with the same model.
   config_.set_seed(header.seed());
   config_.set_model(header.model());

@@ -4,14 +4,6 @@
 
 namespace choreo::client {
 
-void DeliveryFilter::Restart(int64_t frame, std::vector<KeyPlace> late) {
-  expected_ = {late.begin(), late.end()};
-  for (const KeyPlace& place : rejected_) {
-    // Keys without a frame are not among `late`.
-    if (place.second >= frame || place.second < 0) expected_.insert(place);
-  }
-}
-
 bool DeliveryFilter::Admit(v1::Frames* frames) {
   if (frames->first_frame() > next_frame_) {
     throw Error(ErrorCode::kInternal, "",
@@ -31,25 +23,24 @@ bool DeliveryFilter::Admit(v1::Frames* frames) {
   return true;
 }
 
-bool DeliveryFilter::TakeExpected(const KeyPlace& place) {
-  const auto expected = expected_.find(place);
-  if (expected == expected_.end()) return false;
-  expected_.erase(expected);
+// Rejections depend on the order of the messages alone, so every server sends the same ones, in
+// this order. Only of keys in frames that the dance had danced when it resumed the new server says
+// more: the first one accepted them.
+bool DeliveryFilter::AdmitRejection(const v1::Event& event) {
+  const bool is_danced = event.keyframe_rejected().code() == v1::REJECTION_CODE_ALREADY_DANCED;
+  if (is_danced && event.frame() >= first_frame_) return false;
+  if (repeats_ > 0) {
+    --repeats_;
+    return false;
+  }
+  ++rejections_;
   return true;
 }
 
 bool DeliveryFilter::Admit(const v1::Event& event) {
-  if (event.has_keyframe_rejected()) {
-    const KeyPlace place = {event.keyframe_rejected().id(), event.frame()};
-    if (TakeExpected(place)) return false;
-    rejected_.insert(place);
-    return true;
-  }
-  if (event.has_keyframe_reached()) {
-    const KeyPlace place = {event.keyframe_reached().id(), event.frame()};
-    TakeExpected(place);
-    return reached_.insert(place).second;
-  }
+  if (event.has_keyframe_rejected()) return AdmitRejection(event);
+  if (event.has_keyframe_reached())
+    return reached_.emplace(event.keyframe_reached().id(), event.frame()).second;
   if (event.has_warning())
     return warnings_.emplace(event.warning().message(), event.frame()).second;
   if (!event.has_beat() || event.time() <= last_beat_s_) return false;

@@ -1,8 +1,6 @@
 #include "client/journal.h"
 
 #include <algorithm>
-#include <cmath>
-#include <map>
 
 namespace choreo::client {
 namespace {
@@ -53,27 +51,6 @@ int64_t Journal::first_sample() const {
   const auto music = std::find_if(requests_.begin(), requests_.end(),
                                   [](const Request& request) { return request->has_audio(); });
   return music == requests_.end() ? end_sample_ : (*music)->audio().first_sample();
-}
-
-std::vector<std::pair<std::string, int64_t>> Journal::KeysBefore(int64_t frame, double fps) const {
-  std::vector<std::pair<std::string, int64_t>> found;
-  std::map<std::string, int64_t> places;
-  for (const Request& request : requests_) {
-    std::string id;
-    if (request->has_keyframe()) {
-      const v1::Keyframe& key = request->keyframe();
-      id = key.id();
-      places[id] = key.has_frame() ? key.frame() : std::llround(key.time() * fps);
-    } else if (request->has_remove_keyframe()) {
-      id = request->remove_keyframe().id();
-    } else {
-      continue;
-    }
-    if (const auto place = places.find(id); place != places.end() && place->second < frame) {
-      found.emplace_back(*place);
-    }
-  }
-  return found;
 }
 
 }  // namespace choreo::client

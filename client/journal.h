@@ -32,8 +32,6 @@ class Journal {
   void ForgetMusicBefore(int64_t sample);
   /// The first sample still stored.
   int64_t first_sample() const;
-  /// The ids and frames, in order, of keys that were before `frame` when sent. `fps`: the model's.
-  std::vector<std::pair<std::string, int64_t>> KeysBefore(int64_t frame, double fps) const;
 
  private:
   void Add(v1::StreamDanceRequest request);

@@ -35,6 +35,13 @@ v1::Event Reached(const std::string& id, int64_t frame) {
 v1::Event Rejected(const std::string& id, int64_t frame) {
   v1::Event event = At(frame);
   event.mutable_keyframe_rejected()->set_id(id);
+  event.mutable_keyframe_rejected()->set_code(v1::REJECTION_CODE_TOO_LATE);
+  return event;
+}
+
+v1::Event AlreadyDanced(const std::string& id, int64_t frame) {
+  v1::Event event = Rejected(id, frame);
+  event.mutable_keyframe_rejected()->set_code(v1::REJECTION_CODE_ALREADY_DANCED);
   return event;
 }
 
@@ -52,7 +59,7 @@ v1::Event BeatAt(double seconds, int64_t frame) {
 }
 
 TEST(DeliveryFilterTest, CutsAwayFramesThatWereDelivered) {
-  DeliveryFilter filter(10);
+  DeliveryFilter filter(10, 10);
   v1::Frames first = Block(10, 5);
   EXPECT_TRUE(filter.Admit(&first));
   EXPECT_EQ(filter.next_frame(), 15);
@@ -66,13 +73,13 @@ TEST(DeliveryFilterTest, CutsAwayFramesThatWereDelivered) {
 }
 
 TEST(DeliveryFilterTest, NoticesMissingFrames) {
-  DeliveryFilter filter(0);
+  DeliveryFilter filter(0, 0);
   v1::Frames late = Block(1, 2);
   ExpectError(ErrorCode::kInternal, "1 came where 0 was due", [&] { filter.Admit(&late); });
 }
 
 TEST(DeliveryFilterTest, ReportsKeysBeatsAndWarningsOnce) {
-  DeliveryFilter filter(0);
+  DeliveryFilter filter(0, 0);
   for (const bool is_new : {true, false}) {
     EXPECT_EQ(filter.Admit(Reached("a", 30)), is_new);
     EXPECT_EQ(filter.Admit(BeatAt(0.4, 12)), is_new);
@@ -83,32 +90,38 @@ TEST(DeliveryFilterTest, ReportsKeysBeatsAndWarningsOnce) {
   EXPECT_TRUE(filter.Admit(BeatAt(0.44, 13)));  // of who gives them so
 }
 
-TEST(DeliveryFilterTest, HidesOnlyRejectionsCausedByAResumption) {
-  DeliveryFilter filter(0);
-  EXPECT_TRUE(filter.Admit(Rejected("late", 80)));
-  EXPECT_TRUE(filter.Admit(Rejected("late", 80)));  // tried twice
-  filter.Restart(60, {{"danced", 30}});
-  EXPECT_FALSE(filter.Admit(Rejected("danced", 30)));
-  EXPECT_FALSE(filter.Admit(Rejected("late", 80)));
-  EXPECT_FALSE(filter.Admit(Rejected("late", 80)));
-  EXPECT_TRUE(filter.Admit(Rejected("danced", 30)));  // asked for again, in vain
-  EXPECT_TRUE(filter.Admit(Rejected("late", 80)));
+TEST(DeliveryFilterTest, ReportsEachRejectionOnceAndNoneCausedByAResumption) {
+  DeliveryFilter filter(0, 0);
+  EXPECT_TRUE(filter.Admit(Rejected("late", 10)));
+  EXPECT_TRUE(filter.Admit(Rejected("late", 10)));  // tried twice
+  EXPECT_TRUE(filter.Admit(Rejected("timeless", -1)));
+  filter.Restart();
+  EXPECT_FALSE(filter.Admit(Rejected("late", 10)));
+  EXPECT_FALSE(filter.Admit(AlreadyDanced("moved", 30)));
+  EXPECT_FALSE(filter.Admit(Rejected("late", 10)));
+  EXPECT_FALSE(filter.Admit(Rejected("timeless", -1)));
+  EXPECT_TRUE(filter.Admit(Rejected("late", 10)));  // not answered before
+  EXPECT_TRUE(filter.Admit(Rejected("timeless", -1)));
+  EXPECT_FALSE(filter.Admit(AlreadyDanced("moved", 30)));  // removed
+  filter.Restart();
+  for (int i = 0; i < 5; ++i) EXPECT_FALSE(filter.Admit(Rejected("again", 10)));
+  EXPECT_TRUE(filter.Admit(Rejected("new", 10)));
 }
 
-TEST(DeliveryFilterTest, HidesRepeatedRejectionsOfKeysWithoutAFrame) {
-  const v1::Event rejected = Rejected("timeless", -1);
-  DeliveryFilter filter(0);
-  EXPECT_TRUE(filter.Admit(rejected));
-  filter.Restart(60, {});
-  EXPECT_FALSE(filter.Admit(rejected));
-  EXPECT_TRUE(filter.Admit(rejected));  // sent anew
+TEST(DeliveryFilterTest, ReportsKeysBeforeTheContinuationFromWhichTheCallerGoesOn) {
+  DeliveryFilter filter(60, 100);
+  EXPECT_TRUE(filter.Admit(AlreadyDanced("danced", 59)));
+  filter.Restart();
+  EXPECT_FALSE(filter.Admit(AlreadyDanced("danced", 59)));
+  EXPECT_FALSE(filter.Admit(AlreadyDanced("moved", 60)));
+  EXPECT_TRUE(filter.Admit(AlreadyDanced("danced", 59)));
 }
 
-TEST(DeliveryFilterTest, ShowsRejectionsOfReachedKeysAfterAResumption) {
+TEST(DeliveryFilterTest, ReportsRejectionsOfReachedKeysAfterAResumption) {
   const v1::Event reached = Reached("a", 30);
-  DeliveryFilter filter(0);
+  DeliveryFilter filter(0, 0);
   EXPECT_TRUE(filter.Admit(reached));
-  filter.Restart(60, {{"a", 30}});
+  filter.Restart();
   EXPECT_FALSE(filter.Admit(reached));
   EXPECT_TRUE(filter.Admit(Rejected("a", 30)));  // sent anew
 }

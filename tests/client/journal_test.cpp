@@ -1,23 +1,13 @@
 #include "client/journal.h"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 namespace choreo::client::journal_test {
-
-using testing::ElementsAre;
-using testing::Pair;
 
 v1::StreamDanceRequest KeyAt(const std::string& id, int64_t frame) {
   v1::StreamDanceRequest request;
   request.mutable_keyframe()->set_id(id);
   request.mutable_keyframe()->set_frame(frame);
-  return request;
-}
-
-v1::StreamDanceRequest Removal(const std::string& id) {
-  v1::StreamDanceRequest request;
-  request.mutable_remove_keyframe()->set_id(id);
   return request;
 }
 
@@ -98,20 +88,6 @@ TEST(JournalTest, KeepsUnsentMessagesAndWholeFiles) {
   file.Rewind();
   EXPECT_EQ(file.TakeNext()->audio().first_sample(), 0);
   EXPECT_EQ(file.TakeNext()->audio().first_sample(), 4);
-}
-
-TEST(JournalTest, KnowsWhichMessagesComeTooLateForAResumption) {
-  Journal journal(0, 0);
-  journal.Append(KeyAt("a", 10));
-  journal.Append(KeyAt("b", 50));
-  v1::StreamDanceRequest timed;
-  timed.mutable_keyframe()->set_id("c");
-  timed.mutable_keyframe()->set_time(1.0);
-  journal.Append(timed);
-  journal.Append(KeyAt("a", 70));  // moved
-  journal.Append(Removal("c"));
-  journal.Append(Removal("b"));
-  EXPECT_THAT(journal.KeysBefore(40, 30), ElementsAre(Pair("a", 10), Pair("c", 30), Pair("c", 30)));
 }
 
 }  // namespace choreo::client::journal_test
