@@ -5,7 +5,7 @@
 
 #include "model/body/doll.h"
 #include "model/core/error.h"
-#include "model/motion/segment.h"
+#include "model/motion/nearest_points.h"
 
 namespace choreo {
 namespace {

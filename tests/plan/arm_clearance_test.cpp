@@ -5,8 +5,8 @@
 
 #include "model/motion/floor_clearance.h"
 #include "model/motion/kinematics.h"
+#include "model/motion/nearest_points.h"
 #include "model/motion/rotation.h"
-#include "model/motion/segment.h"
 #include "model/plan/plan_stages.h"
 
 namespace choreo::arm_clearance_test {
