@@ -69,7 +69,7 @@ TEST_F(StudioTest, AKeyBesideTheBeginningIsDancedOnTheFirstFrame) {
     const Response response = page.Read();
     ASSERT_FALSE(response.has_failure()) << response.failure().message();
     if (response.dance().event().has_keyframe_reached()) {
-      EXPECT_EQ(response.dance().event().keyframe_reached().frame(), 0);
+      EXPECT_EQ(response.dance().event().frame(), 0);
       return;
     }
   }
