@@ -104,8 +104,10 @@ TEST(KeyFaultsTest, AJumpOutOfAFloorPoseNeedsTimeToRise) {
   EXPECT_THAT(faults[0].message,
               testing::ContainsRegex("key \"up\" .*the pelvis would rise 0.7[0-9] m in 0.2[0-9] s "
                                      "from \"low\" to \"the take-off of up\"; that takes 0.7"));
-  EXPECT_EQ(FaultsOf(stand + splits + jump("3.1")).size(), 1U) << "less than the flight takes";
+  EXPECT_EQ(FaultsOf(stand + splits + jump("3.25")).size(), 1U) << "less than the flight takes";
   EXPECT_THAT(FaultsOf(stand + splits + jump("4.2")), testing::IsEmpty());
+  const std::string kneel = R"({"time": 3, "pose": "kneel", "place": [0, 0]}, )";
+  EXPECT_EQ(FaultsOf(stand + kneel + jump("3.5")).size(), 1U);
   // Jumps begin and end in a bend of the knees.
   const std::string crouch = R"({"time": 3, "pose": "crouch", "place": [0, 0]}, )";
   EXPECT_THAT(FaultsOf(stand + crouch + jump("3.6")), testing::IsEmpty());
