@@ -104,8 +104,8 @@ int64_t FrameIn(const ordered_json& part, const char* text, const std::string& f
                                    std::to_string(authoring::kMaxFrameNumber));
 }
 
-/// To 4 decimals: time and count are there for people, the frame for programs.
-double Short(double value) { return std::round(value * 1e4) / 1e4; }
+/// To 4 decimals, without "-0": time and count are there for people, the frame for programs.
+double Short(double value) { return std::round(value * 1e4) / 1e4 + 0.0; }
 
 ordered_json KeyJson(const ReportKey& key, const TimeFormat& times) {
   ordered_json written = {
