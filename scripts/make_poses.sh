@@ -117,7 +117,7 @@ pose kneel floor "On the right knee, hands on the left." stand \
 pose praise floor "On both knees, leaning back, arms to the sky." \
   left_hip=6,0,8 right_hip=6,0,-8 left_knee=100 right_knee=100 left_ankle=55,0,0 right_ankle=55,0,0 spine1=-14,0,0 spine2=-14,0,0 neck=-14,0,0 left_shoulder=-20,0,62 right_shoulder=-20,0,-62 left_elbow=10 right_elbow=10
 pose sit_long floor "Sitting, legs ahead, hands on the floor behind." \
-  pelvis=-18,0,0 left_hip=-74,8,8 right_hip=-74,-8,-8 left_knee=2 right_knee=2 left_ankle=25,0,0 right_ankle=25,0,0 left_shoulder=0,30,-55 right_shoulder=0,-30,55 left_elbow=5 right_elbow=5 at left_hand=0.3,0.05,-0.34 right_hand=-0.3,0.05,-0.34
+  pelvis=-18,0,0 left_hip=-74,8,8 right_hip=-74,-8,-8 left_knee=2 right_knee=2 left_ankle=25,0,0 right_ankle=25,0,0 left_shoulder=0,30,-55 right_shoulder=0,-30,55 left_elbow=5 right_elbow=5 at left_hand=0.3,0.09,-0.34 right_hand=-0.3,0.09,-0.34
 pose straddle_sit floor "Sitting with the legs wide, bent to the left foot." \
   left_hip=-91,48,0 right_hip=-91,-48,0 left_ankle=25,0,0 right_ankle=25,0,0 spine1=10,0,-14 spine2=12,0,-18 neck=10,0,-10 left_shoulder=0,-45,-35 left_elbow=35 right_shoulder=-30,0,-60 right_elbow=25
 pose all_fours floor "On hands and knees, back hollow, head up." \

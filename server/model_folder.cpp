@@ -12,7 +12,7 @@
 #include "model/core/error.h"
 #include "model/core/printable.h"
 #include "model/messages/style_figures.h"
-#include "model/messages/style_figures_file.h"
+#include "model/messages/figures_path.h"
 #include "network/pem.h"
 #include "server/settings/fault_list.h"
 

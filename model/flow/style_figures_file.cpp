@@ -9,7 +9,7 @@
 #include "model/core/json_limits.h"
 #include "model/core/printable.h"
 #include "model/core/rounded.h"
-#include "model/messages/style_figures_file.h"
+#include "model/messages/figures_path.h"
 
 namespace choreo {
 namespace {

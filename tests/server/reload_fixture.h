@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "model/messages/style_figures.h"
-#include "model/messages/style_figures_file.h"
+#include "model/messages/figures_path.h"
 #include "server/model_folder.h"
 #include "tests/server/fixture.h"
 #include "tests/support/temporary_folder.h"

@@ -18,10 +18,6 @@ namespace choreo::authoring {
 namespace {
 
 constexpr double kJump = 0.1;  // metres: a jump's least height above the floor
-/// In a pose on the floor, another part than a foot is less than this above the lowest, metres. Of
-/// the library's poses there it is 6 cm at most, of the others 20 at least: dancers jump from a
-/// bend of the knees, and land in one.
-constexpr double kLow = 0.1;
 
 /// How far a pose is above where it would stand, metres; none if that is unknown.
 std::optional<double> InAir(const Pose& pose, const PoseMask& mask, const Skeleton& skeleton) {
@@ -50,16 +46,11 @@ double JumpHeight(const TimedPose& one, const Skeleton& skeleton) {
 }
 
 bool IsOnFloor(const TimedPose& one, const Skeleton& skeleton) {
-  const bool is_known = StandingHeight(skeleton, one.pose, one.mask).has_value();
-  if (!is_known || JumpHeight(one, skeleton) > 0) return false;
-  const Eigen::RowVectorXd clearance = FloorClearance(skeleton),
-                           rest = JointPositions(skeleton, RestPose(skeleton)).row(1) - clearance,
-                           now = JointPositions(skeleton, one.pose).row(1) - clearance;
-  for (Eigen::Index joint = 0; joint < now.cols(); ++joint) {
-    const bool is_foot = rest[joint] < kLow;
-    if (!is_foot && now[joint] - now.minCoeff() < kLow) return true;
-  }
-  return false;
+  const std::optional<double> stands = StandingHeight(skeleton, one.pose, one.mask);
+  if (!stands || JumpHeight(one, skeleton) > 0) return false;
+  Pose on_floor = one.pose;
+  on_floor.root_position.y() = *stands;
+  return RestsOnFloor(skeleton, on_floor);
 }
 
 /// Describes a way from the floor into a jump, or out of one to the floor, for which the time is

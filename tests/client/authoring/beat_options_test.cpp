@@ -38,12 +38,12 @@ class MusicBeats : public testing::Test {
   TemporaryFolder folder_;
 };
 
-/// The lines that `work` passes to the program's sink.
+/// The lines that `work` notes.
 std::string Noted(const std::function<void()>& work) {
-  std::string noted;
-  SetNoteSink([&](const std::string& line) { noted += line; });
+  const NotesApart notes;
   work();
-  SetNoteSink({});
+  std::string noted;
+  for (const std::string& line : notes.lines()) noted += line;
   return noted;
 }
 
