@@ -179,8 +179,6 @@ TEST(Arrival, MeetsTheMotionThatFollows) {
   EXPECT_LT(worst, 0.2 * worst_unaware);
 }
 
-// No spike: around the key the acceleration is of the size that the way there needs anyhow, for a
-// model that misses by a lot.
 // A body that had no place to be in glided on after its pose had come to rest.
 TEST(Arrival, ARootWithoutAPlaceTakesTheVelocityThatFollows) {
   std::mt19937 random(9);
@@ -200,6 +198,8 @@ TEST(Arrival, ARootWithoutAPlaceTakesTheVelocityThatFollows) {
   }
 }
 
+// No spike: around the key the acceleration is of the size that the way there needs anyhow, for a
+// model that misses by a lot.
 TEST(Arrival, HasNoAccelerationSpike) {
   std::mt19937 random(6);
   double worst_ratio = 0;
