@@ -116,8 +116,8 @@ class RemoteDance {
   std::optional<Message> Next();
   /// Ends the dance; a concurrent Next throws Error(kCancelled). Idempotent.
   void Cancel() noexcept;
-  /// The dance in the API's own messages (client/dance_call.h), for programs that pass them on.
-  /// Call either its Next or this one's.
+  /// The dance in the API's own messages (client/dance_call.h, with protobuf), for programs that
+  /// pass them on. Such a program calls its Next instead of this one's.
   DanceCall& call() { return *call_; }
 
  private:

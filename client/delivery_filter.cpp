@@ -24,8 +24,8 @@ bool DeliveryFilter::Admit(v1::Frames* frames) {
 }
 
 // Rejections depend on the order of the messages alone, so every server sends the same ones, in
-// this order. Only of keys in frames that the dance had danced when it resumed the new server says
-// more: the first one accepted them.
+// this order. A resumed server also rejects, as already danced, keys that the first server
+// accepted; those are left out.
 bool DeliveryFilter::AdmitRejection(const v1::Event& event) {
   const bool is_danced = event.keyframe_rejected().code() == v1::REJECTION_CODE_ALREADY_DANCED;
   if (is_danced && event.frame() >= first_frame_) return false;

@@ -17,7 +17,7 @@ void Journal::Add(v1::StreamDanceRequest request) {
 void Journal::Append(v1::StreamDanceRequest request) {
   if (!request.has_audio()) return Add(std::move(request));
   const auto unit = static_cast<size_t>(std::max(1, bytes_per_sample_));
-  const size_t chunk = kMusicChunkBytes / unit * unit;
+  const size_t chunk = std::max<size_t>(1, kMusicChunkBytes / unit) * unit;
   const std::string& bytes = request.audio().data();
   for (size_t first = 0; first < bytes.size(); first += chunk) {
     v1::StreamDanceRequest piece;

@@ -11,8 +11,8 @@
 
 #include "model/core/error.h"
 #include "model/core/printable.h"
-#include "model/messages/style_figures.h"
 #include "model/messages/figures_path.h"
+#include "model/messages/style_figures.h"
 #include "network/pem.h"
 #include "server/settings/fault_list.h"
 

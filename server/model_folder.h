@@ -30,10 +30,10 @@ class ModelFolder {
   std::vector<Server::Samplers> Load();
 
   /// Rereads the folder: loads new and changed files, and those whose StyleFiguresFile has changed,
-  /// and updates the server. Logs an unusable file
-  /// as an error and retries it next time. Until then it serves the file's previous model, unless
-  /// another file has a model of that name. Changes nothing if the folder is empty or unreadable.
-  /// Once `stopped` returns true, loads nothing more and does not update the server.
+  /// and updates the server. Logs an unusable file as an error and retries it next time. Until then
+  /// it serves the file's previous model, unless another file has a model of that name. Changes
+  /// nothing if the folder is empty or unreadable. Once `stopped` returns true, loads nothing more
+  /// and does not update the server.
   void Reload(Server& server, const std::function<bool()>& stopped);
 
  private:

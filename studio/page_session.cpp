@@ -177,7 +177,7 @@ void PageSession::ReadDance(uint32_t call, Dancing* dancing) {
       } else {
         *response.mutable_dance() = std::get<v1::StreamDanceResponse>(*std::move(answer));
       }
-      // The page needs none: the client library resumes dances.
+      // The page needs no continuation: the client library resumes dances.
       if (response.dance().has_continuation()) continue;
       if (response.dance().has_summary()) end();
       Answer(call, std::move(response));

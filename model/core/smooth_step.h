@@ -11,8 +11,8 @@ Number SmoothStep(Number u) {
   return u * u * (3 - 2 * u);
 }
 
-/// The seconds of a smooth step of `size` whose acceleration is at most `acceleration`, 6 size /
-/// t², per second squared.
+/// The seconds that a smooth step of `size` takes if it accelerates by at most `acceleration`, per
+/// second squared. In t seconds it accelerates by at most 6 size / t².
 inline double StepSeconds(double size, double acceleration) {
   return std::sqrt(6 * size / acceleration);
 }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <initializer_list>
 
+#include "model/motion/limb.h"
+
 namespace choreo {
 namespace {
 
@@ -17,11 +19,6 @@ constexpr double kHead = 6.81;
 constexpr Segment kTrunkSegment = {43.015, 0.40465};
 constexpr Segment kUpperArm = {2.63, 0.5763}, kForearm = {1.5, 0.45665}, kHand = {0.585, 0.76870};
 constexpr Segment kThigh = {14.47, 0.38535}, kShank = {4.57, 0.43735}, kFoot = {1.33, 0.5};
-
-int FirstChild(const Skeleton& skeleton, int joint) {
-  const auto child = std::ranges::find(skeleton.parents, joint);
-  return child == skeleton.parents.end() ? -1 : static_cast<int>(child - skeleton.parents.begin());
-}
 
 }  // namespace
 

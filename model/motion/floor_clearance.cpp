@@ -15,11 +15,12 @@ constexpr double kLimbDepth = 0.05;
 Eigen::RowVectorXd FloorClearance(const Skeleton& skeleton) {
   const Eigen::RowVectorXd rest = JointPositions(skeleton, RestPose(skeleton)).row(1);
   Eigen::RowVectorXd depth = Eigen::RowVectorXd::Constant(rest.size(), kLimbDepth);
-  for (int limb :
-       {skeleton.left_hip, skeleton.right_hip, skeleton.left_shoulder, skeleton.right_shoulder}) {
-    const bool hip = limb == skeleton.left_hip || limb == skeleton.right_hip;
-    int joint = hip || limb < 0 ? limb : skeleton.parents[static_cast<size_t>(limb)];
-    for (; joint >= 0; joint = skeleton.parents[static_cast<size_t>(joint)])
+  const auto parent = [&](int joint) { return skeleton.parents[static_cast<size_t>(joint)]; };
+  // The trunk: hips, and all joints above them and above the shoulders.
+  for (const int hip : {skeleton.left_hip, skeleton.right_hip})
+    for (int joint = hip; joint >= 0; joint = parent(joint)) depth[joint] = kTrunkDepth;
+  for (const int shoulder : {skeleton.left_shoulder, skeleton.right_shoulder}) {
+    for (int joint = shoulder < 0 ? -1 : parent(shoulder); joint >= 0; joint = parent(joint))
       depth[joint] = kTrunkDepth;
   }
   // Some skeletons have foot joints beyond the roles, such as heels.
@@ -38,8 +39,10 @@ std::vector<int> JointsOnFloor(const Skeleton& skeleton, const Eigen::RowVectorX
                                const Eigen::Matrix3Xd& joints) {
   std::vector<int> on_floor;
   for (int joint = 0; joint < skeleton.joints(); ++joint) {
-    const bool foot = std::ranges::find(skeleton.feet, joint) != skeleton.feet.end();
-    if (!foot && joints(1, joint) < clearance[joint] + kSoleHeight) on_floor.push_back(joint);
+    const bool is_foot = std::ranges::any_of(skeleton.feet, [&](int foot) {
+      return foot >= 0 && IsBelow(joint, foot, skeleton.parents);  // also a heel
+    });
+    if (!is_foot && joints(1, joint) < clearance[joint] + kSoleHeight) on_floor.push_back(joint);
   }
   return on_floor;
 }

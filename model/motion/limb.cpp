@@ -67,6 +67,11 @@ Eigen::Vector3d HingeOf(const Leg& leg, const JointPlacement& placement) {
 
 }  // namespace
 
+int FirstChild(const Skeleton& skeleton, int joint) {
+  const auto child = std::ranges::find(skeleton.parents, joint);
+  return child == skeleton.parents.end() ? -1 : static_cast<int>(child - skeleton.parents.begin());
+}
+
 BendRange NextBend(double bend, double seconds) {
   const double room = kStraightTurn * seconds, more = kFreedom * seconds;
   const double beyond = bend - kStraightBend;

@@ -19,6 +19,9 @@ struct Limb {
   int upper = -1, middle = -1, end = -1;
 };
 
+/// The first child of a joint, such as the hand of a wrist; -1 if it has none.
+int FirstChild(const Skeleton& skeleton, int joint);
+
 /// The range of a limb's bend, radians: 0 is straight, positive the natural way.
 struct BendRange {
   double least = -M_PI, most = M_PI;

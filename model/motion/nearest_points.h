@@ -6,7 +6,7 @@
 namespace choreo {
 
 /// The nearest points of the segments from `a` to `b` and from `c` to `d`, as shares of their
-/// lengths (Ericson, Real-Time Collision Detection, 5.1.9). `Vector`: of Eigen.
+/// lengths (Ericson, Real-Time Collision Detection, 5.1.9). `Vector`: Eigen::Vector3d or Vector3f.
 template <class Vector>
 auto NearestPoints(const Vector& a, const Vector& b, const Vector& c, const Vector& d) {
   using Number = typename Vector::Scalar;

@@ -1,13 +1,16 @@
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "model/core/smooth_step.h"
 #include "model/motion/floor_clearance.h"
 #include "model/motion/kinematics.h"
+#include "model/motion/limb.h"
 #include "model/motion/nearest_points.h"
 #include "model/motion/rotation.h"
 #include "model/motion/support.h"
@@ -37,11 +40,6 @@ struct Detour {
     return std::tie(left_cm, shaking) < std::tie(other.left_cm, other.shaking);
   }
 };
-
-int ChildOf(const Skeleton& skeleton, int parent) {
-  const auto child = std::ranges::find(skeleton.parents, parent);
-  return child == skeleton.parents.end() ? -1 : static_cast<int>(child - skeleton.parents.begin());
-}
 
 class ArmClearer {
  public:
@@ -226,9 +224,9 @@ void KeepArmsOutside(const PlanContext& context, std::vector<Pose>* plan) {
   const std::array elbows = {skeleton.left_elbow, skeleton.right_elbow};
   std::vector<Arm> arms;
   for (size_t side = 0; side < 2; ++side) {
-    const int wrist = elbows[side] < 0 ? -1 : ChildOf(skeleton, elbows[side]);
+    const int wrist = elbows[side] < 0 ? -1 : FirstChild(skeleton, elbows[side]);
     if (shoulders[side] < 0 || wrist < 0) return;
-    arms.push_back({shoulders[side], elbows[side], wrist, ChildOf(skeleton, wrist),
+    arms.push_back({shoulders[side], elbows[side], wrist, FirstChild(skeleton, wrist),
                     side == 0 ? Vector3d::UnitX() : Vector3d(-Vector3d::UnitX())});
   }
   if (plan->empty()) return;

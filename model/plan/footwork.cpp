@@ -222,8 +222,8 @@ class PlanStander {
     }
   }
 
-  // The share of a raise, metres, that a frame has if the frame `at` has all of it. A raise begins
-  // with the plan at the earliest.
+  // The share that `frame` has of a raise by so many metres in the frame `at`. A raise begins with
+  // the plan at the earliest.
   double Share(int frame, int at, double raise) const {
     const double usual =
         context_.fps * std::max(kSettleSeconds, StepSeconds(raise, context_.options.acceleration));

@@ -64,10 +64,11 @@ void HitKey(const PlanContext& context, double hit, std::vector<Pose>* plan);
 /// takes: the cubic from 0 to 1 with slopes 1 and `hit`.
 double HitTime(double u, double hit);
 
-/// Turns shoulders so that forearms and hands stay out of the trunk: at least kTrunkDepth
-/// (motion/floor_clearance.h) from the line through its joints or, near the history and a key, as
-/// far as these are. Each time that an arm would pass through, it goes round in front, behind or
-/// outside, whichever turns it least. For a plan after arrival, as arrival moves arms, too.
+/// Turns shoulders, by a quarter turn at most, so that forearms and hands stay out of the trunk:
+/// kTrunkDepth (motion/floor_clearance.h) from the line through its joints or, near the history and
+/// a key, as far as these are. Each time that an arm would pass through, it goes round in front,
+/// behind or outside, whichever leaves it least inside and then shakes it least. For a plan after
+/// arrival, as arrival moves arms, too.
 void KeepArmsOutside(const PlanContext& context, std::vector<Pose>* plan);
 
 /// The stages in order, for models with ModelInfo::plan_stages.

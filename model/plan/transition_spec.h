@@ -98,7 +98,7 @@ struct TransitionSpec {
   std::string style = {};               ///< one of the model's, or empty for any
   std::optional<MusicRows> music = {};  ///< for models that hear; none: no music
   // Set the next two to 0 and false to measure the model alone.
-  int arrival_frames = 12;  ///< Arrival's window
+  int arrival_frames = 12;  ///< Arrival's window; TransitionRun's to a key on the floor is longer
   bool footwork = true;
 };
 

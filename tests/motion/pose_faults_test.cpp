@@ -46,6 +46,15 @@ TEST(PoseFaults, NamesImpossibleAngles) {
   EXPECT_THAT(BendFaults(Body(), At(0, 1.5)), IsEmpty());
 }
 
+TEST(RestsOnFloor, AHeelIsPartOfAFoot) {
+  Skeleton body = Body();
+  body.AddJoint("left_heel", body.feet[0], {0, -0.05, -0.05});
+  Pose pose = RestPose(body);
+  EXPECT_FALSE(RestsOnFloor(body, pose));
+  pose.root_position.y() -= 0.4;
+  EXPECT_TRUE(RestsOnFloor(body, pose)) << "on its knees";
+}
+
 TEST(PoseFaults, MaskedJointsHaveNoFaults) {
   Pose pose = At(0, -0.3);
   const Hinge hinge = Hinges(Body())[0];

@@ -5,6 +5,7 @@
 
 #include "model/motion/floor_clearance.h"
 #include "model/motion/kinematics.h"
+#include "model/motion/mirror.h"
 #include "model/motion/nearest_points.h"
 #include "model/motion/rotation.h"
 #include "model/plan/plan_stages.h"
@@ -77,6 +78,7 @@ TEST(KeepArmsOutside, ItMovesAsideSmoothly) {
   };
   const double before = most(plan);
   Keep(false, &plan);
+  ASSERT_GT(Nearest(plan), 0.8 * kTrunkDepth);
   EXPECT_LT(most(plan), before + 2);
 }
 
@@ -86,6 +88,15 @@ TEST(KeepArmsOutside, ArmsThatAreOutsideStay) {
   const std::vector<Pose> before = plan;
   Keep(false, &plan);
   for (size_t i = 0; i < plan.size(); ++i) EXPECT_EQ(plan[i].rotations, before[i].rotations);
+}
+
+TEST(KeepArmsOutside, TheRightArmMovesAsTheLeft) {
+  std::vector<Pose> left = Swing(0, 2), right;
+  for (const Pose& pose : left) right.push_back(Mirror(Body(), pose));
+  Keep(false, &left);
+  Keep(false, &right);
+  for (size_t i = 0; i < left.size(); ++i)
+    EXPECT_LT(ComparePoses(Body(), Mirror(Body(), right[i]), left[i]).position_m, 1e-3) << i;
 }
 
 TEST(KeepArmsOutside, OnlyOneShoulderTurns) {
@@ -98,6 +109,8 @@ TEST(KeepArmsOutside, OnlyOneShoulderTurns) {
       EXPECT_EQ(plan[i].rotations.col(joint), before[i].rotations.col(joint));
     }
   }
+  const int shoulder = Body().left_shoulder;
+  EXPECT_NE(plan[30].rotations.col(shoulder), before[30].rotations.col(shoulder));
 }
 
 // A key, and the pose before, may have a hand on the heart.

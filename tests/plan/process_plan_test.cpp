@@ -38,6 +38,25 @@ TEST_F(ProcessPlanTest, StagesPassUnlessTheModelOrAHoldLeavesThemOut) {
   EXPECT_EQ(Fall(Process(/*held=*/true)), 0);
 }
 
+// For a model whose plans are put on their feet.
+TEST_F(ProcessPlanTest, AnArmInTheTrunkTurns) {
+  const int shoulder = model_.skeleton.left_shoulder, elbow = model_.skeleton.left_elbow;
+  for (Pose& pose : plan_.poses) {
+    pose.rotations.col(shoulder) = Eigen::Vector3d(0, 0, -1.3);  // down the side,
+    pose.rotations.col(elbow) = Eigen::Vector3d(0, 0, -1.4);     // and into it
+  }
+  const auto turned = [&] {
+    return (Process().poses[30].rotations.col(shoulder) - plan_.poses[30].rotations.col(shoulder))
+        .norm();
+  };
+  model_.plan_stages = true;
+  EXPECT_LT(turned(), 1e-9);
+  spec_.footwork = true;
+  EXPECT_GT(turned(), 0.05);
+  model_.plan_stages = false;
+  EXPECT_LT(turned(), 1e-9);
+}
+
 TEST_F(ProcessPlanTest, ContactsAreDetectedUnlessTheModelHasItsOwn) {
   constexpr Contacts kDown = {1, 1, 1, 1};
   EXPECT_EQ(Process().contacts, std::vector<Contacts>(60));

@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "model/messages/style_figures.h"
 #include "model/messages/figures_path.h"
+#include "model/messages/style_figures.h"
 #include "server/model_folder.h"
 #include "tests/server/fixture.h"
 #include "tests/support/temporary_folder.h"

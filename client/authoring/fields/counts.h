@@ -45,8 +45,8 @@ struct WrittenTime {
 /// Converts a second to a count, in music with at least two beats: the inverse of WrittenTime::In.
 double CountAt(double seconds, const Counts& counted);
 
-/// The frame for a key at `frame`: the first one for a key beside it. A dance begins in the first
-/// frame's pose, from which one frame is no way.
+/// The frame for a key at `frame`. A key one frame after the first moves to it, because one frame
+/// is too short for a transition.
 inline int64_t FrameForKey(int64_t frame) {
   return frame > 0 && frame < kMinKeyDistance ? 0 : frame;
 }

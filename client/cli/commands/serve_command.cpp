@@ -39,10 +39,9 @@ void AddServeCommand(CLI::App& program) {
       "serve",
       "Keep a server on this machine, so that commands with --server or CHOREO_SERVER need not "
       "start one each.\nIt prints the address at which it listens; Ctrl-C stops it. Without "
-      "options "
-      "that is 127.0.0.1:" +
+      "options that is 127.0.0.1:" +
           std::to_string(kDefaultPort) +
-          ", as for commands. Takes choreod's options (choreod --help), of which one needs first:\n"
+          ", as for commands. Takes choreod's options (choreod --help), such as:\n"
           "  --listen HOST:PORT   another address\n"
           "  --model NAME         another model, as paper-f or paper-c");
   command->prefix_command();

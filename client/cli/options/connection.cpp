@@ -21,7 +21,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 constexpr std::chrono::seconds kOfOneLoss{5};
-/// After this time without a server people wonder. A server that just starts may come before.
+/// A command that waits longer for a server says so. One that is just starting is there earlier.
 constexpr std::chrono::milliseconds kSilent{500};
 constexpr const char* kServerVariable = "CHOREO_SERVER";
 

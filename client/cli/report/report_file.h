@@ -44,8 +44,7 @@ struct ReportFile {
   DanceSettings settings = {};
   ReportKeys keys = {};
   std::vector<client::Warning> warnings = {};
-  authoring::Counts counts =
-      {};  ///< of the song, if known: WriteTo tells the keys', none reads them
+  authoring::Counts counts = {};  ///< of the song, if known: WriteTo adds them to the keys
 
   void WriteTo(nlohmann::ordered_json* json) const;
 };

@@ -69,8 +69,8 @@ export class DeliveryFilter {
   }
 
   /**
-   * Rejections depend on the order of the requests alone, so every server sends the same ones, in this order. Only of keys in frames that the dance
-   * had danced when it resumed the new server says more: the first one accepted them.
+   * Rejections depend on the order of the requests alone, so every server sends the same ones, in this order. A resumed server also
+   * rejects, as already danced, keys that the first server accepted; those are left out.
    */
   #isNewRejection({ frame, keyframe_rejected: { code } }) {
     if (code === 'REJECTION_CODE_ALREADY_DANCED' && Number(frame) >= Number(this.#header.first_frame)) return false;

@@ -75,8 +75,8 @@ class DeliveryFilter:
         return True
 
     def _is_new_rejection(self, event):
-        """Rejections depend on the order of the requests alone, so every server sends the same ones, in this order. Only of keys in frames that the
-        dance had danced when it resumed the new server says more: the first one accepted them."""
+        """Rejections depend on the order of the requests alone, so every server sends the same ones, in this order. A resumed server
+        also rejects, as already danced, keys that the first server accepted; those are left out."""
         if event.keyframe_rejected.code == choreography.REJECTION_CODE_ALREADY_DANCED and event.frame >= self._first_frame:
             return False
         if self._repeats > 0:

@@ -12,6 +12,8 @@
 namespace choreo {
 namespace {
 
+constexpr int kSlowArrival = 3;  // times as long, to slow down for the floor
+
 // The last `count` poses of `before` followed by the frames' poses.
 template <typename Frames, typename PoseOf>
 std::vector<Pose> LastPoses(size_t count, const std::vector<Pose>& before, const Frames& frames,
@@ -112,14 +114,15 @@ void TransitionRun::ToCanonicalFrame(TransitionSpec* spec) const {
   for (size_t i = 0; i < spec->controls.rows().size(); ++i)
     spec->controls[i].values = spec->controls[i].values.unaryExpr(&ToFloat);
   const bool to_floor = spec->target && EndsOnFloor(*spec);
-  if (to_floor) spec->arrival_frames *= 3;  // to slow down
+  if (to_floor) spec->arrival_frames *= kSlowArrival;
   if (spec->after)
     spec->after = ground_.ToLocal(*spec->after);
   else if (spec->target && (spec->hit || held_ || to_floor))
     spec->after = spec->target->pose;  // at rest
 }
 
-// Whether the key's pose sits, lies or kneels. The floor stops a body that goes down.
+// Whether the key's pose sits, lies, kneels or leans on its hands. The floor stops a body that goes
+// down.
 bool TransitionRun::EndsOnFloor(const TransitionSpec& spec) const {
   Pose key = Masked(spec.target->pose, spec.target->mask, spec.history.back());
   if (spec.target->height) key.root_position.y() = *spec.target->height;

@@ -123,7 +123,6 @@ TEST_F(CommandTest, DancesThroughTheExampleInWords) {
   EXPECT_TRUE(report["warnings"].empty()) << report["warnings"];
 }
 
-// The later key replaces the earlier one, as animators expect.
 TEST_F(CommandTest, TellsWhenKeysFall) {
   WriteClicks(folder_ / "song.wav", 10);
   std::ofstream(folder_ / "keys.json") << R"({"keyframes": [
@@ -146,6 +145,7 @@ TEST_F(CommandTest, TellsWhenKeysFall) {
   EXPECT_FALSE(ReadJson(folder_ / "r.json")["keyframes"][0].contains("count"));
 }
 
+// The later key replaces the earlier one, as animators expect.
 TEST_F(CommandTest, AKeyInAHoldEndsItInTimeForTheWay) {
   std::ofstream(folder_ / "keys.json")
       << R"({"keyframes": [{"id": "a", "time": 1, "pose": "stand", "hold": 3},
