@@ -268,7 +268,7 @@ TEST_F(EditTest, RefusesImpossibleEdits) {
                  "dance.npz: is not JSON, nor any text");
   std::ofstream(folder_ / "deep.json") << std::string(1'000'000, '[');
   expect_failure("--key kick --at 2 --report " + At("deep.json"), "more than 64 levels");
-  expect_failure("--key kick --at 2 --report " + At("song.wav"), "is not the report of a dance");
+  expect_failure("--key kick --at 2 --report " + At("song.wav"), "is not JSON");
   expect_failure("--loop --new-report " + At("n.json"), "--new-report: needs --report");
   expect_failure("--key kick --at 2 --half-time",
                  "--beats: and other options of beats need a song");

@@ -51,7 +51,7 @@ TEST(RestsOnFloor, AHeelIsPartOfAFoot) {
   body.AddJoint("left_heel", body.feet[0], {0, -0.05, -0.05});
   Pose pose = RestPose(body);
   EXPECT_FALSE(RestsOnFloor(body, pose));
-  pose.root_position.y() -= 0.4;
+  pose.root_position.y() -= 0.5;
   EXPECT_TRUE(RestsOnFloor(body, pose)) << "on its knees";
 }
 

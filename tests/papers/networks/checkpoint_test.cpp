@@ -100,7 +100,7 @@ TEST_F(CheckpointTest, AForeignFileIsRefused) {
   std::ofstream(path_, std::ios::trunc) << "this is no checkpoint, just a line of text";
   EXPECT_THAT(FailureOfLoading(), HasSubstr("safetensors"));
   std::filesystem::remove(path_);
-  EXPECT_THAT(FailureOfLoading(), HasSubstr("no such file"));
+  EXPECT_THAT(FailureOfLoading(), HasSubstr("cannot be opened: No such file"));
 }
 
 }  // namespace choreo::checkpoint_test
