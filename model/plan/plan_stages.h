@@ -8,8 +8,8 @@
 #include "model/motion/skeleton.h"
 #include "model/plan/plan_options.h"
 
-/// The stages of a plan between network and arrival (plan/process_plan.h), for what the network
-/// does not know or a rule does better. Pure functions, thread-safe.
+/// The stages of a plan after the network, and of its arms after arrival (plan/process_plan.h), for
+/// what the network does not know or a rule does better. Pure functions, thread-safe.
 namespace choreo {
 
 inline constexpr double kPauseSeconds = 1.5;  ///< least time between beats that is a pause
