@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "model/flow/continuous_flow.h"
+#include "model/flow/network/continuous_flow.h"
 #include "model/papers/networks/controllers_checkpoint.h"
 #include "model/papers/networks/flow_checkpoint.h"
 #include "model/papers/networks/inbetweener.h"

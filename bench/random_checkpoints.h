@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 
-#include "model/flow/continuous_flow_config.h"
+#include "model/flow/window/continuous_flow_config.h"
 #include "model/motion/skeleton.h"
 #include "model/papers/networks/controllers_config.h"
 #include "model/papers/networks/flow_config.h"

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <utility>
 
-#include "model/motion/kinematics.h"
-#include "model/motion/mirror.h"
+#include "model/motion/kinematics/kinematics.h"
+#include "model/motion/kinematics/mirror.h"
 #include "model/motion/resample.h"
 
 namespace choreo::client {

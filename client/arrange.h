@@ -3,7 +3,7 @@
 #include <cstdint>
 
 #include "client/edit.h"
-#include "model/motion/canonical.h"
+#include "model/motion/kinematics/canonical.h"
 
 /// Edits whole dances: cuts a part, mirrors, joins. All but Join with a client are pure functions.
 /// Contacts are kept if both dances have them.
@@ -13,7 +13,7 @@ namespace choreo::client {
 /// for a part that is empty or not in the dance.
 FinishedDance PartOf(const FinishedDance& dance, int64_t first, int64_t end);
 
-/// Swaps left and right: mirrors a dance in the plane x = 0 (motion/mirror.h). Throws
+/// Swaps left and right: mirrors a dance in the plane x = 0 (motion/kinematics/mirror.h). Throws
 /// Error(kInvalidArgument) for a skeleton without paired joints.
 FinishedDance Mirrored(const Skeleton& skeleton, const FinishedDance& dance);
 

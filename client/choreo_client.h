@@ -15,8 +15,8 @@
 #include "client/server_description.h"
 #include "model/core/error.h"
 #include "model/messages/quality_report.h"
+#include "model/motion/controls/velocity_factors.h"
 #include "model/motion/motion.h"
-#include "model/motion/velocity_factors.h"
 #include "network/protocol.h"
 
 /// A client for choreod, in plain C++ without protobuf or gRPC types.

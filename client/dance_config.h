@@ -10,7 +10,7 @@
 #include "model/core/hit.h"
 #include "model/core/passage.h"
 #include "model/messages/dance_manner.h"
-#include "model/motion/control_request.h"
+#include "model/motion/controls/control_request.h"
 #include "model/motion/motion.h"
 
 /// A client's request: music, key poses, controls, and the settings of the dance. Frames are

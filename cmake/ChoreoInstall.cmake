@@ -13,8 +13,10 @@ install(FILES model/core/error.h model/core/grid.h model/core/hand_pose.h model/
 install(FILES network/protocol.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/choreo/network)
 install(FILES model/messages/call_timing.h model/messages/dance_event.h model/messages/dance_header.h model/messages/dance_manner.h model/messages/model_description.h model/messages/quality_report.h model/messages/style_figures.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/choreo/model/messages)
 # What these headers include, and the pose at rest, from which key poses are made.
-install(FILES model/motion/control_request.h model/motion/kinematics.h model/motion/motion.h model/motion/skeleton.h model/motion/velocity_factors.h
-  DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/choreo/model/motion)
+install(FILES model/motion/motion.h model/motion/skeleton.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/choreo/model/motion)
+install(FILES model/motion/kinematics/kinematics.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/choreo/model/motion/kinematics)
+install(FILES model/motion/controls/control_request.h model/motion/controls/velocity_factors.h
+  DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/choreo/model/motion/controls)
 install(DIRECTORY proto/choreo DESTINATION ${CMAKE_INSTALL_DATADIR}/choreo/proto FILES_MATCHING PATTERN "*.proto")
 install(DIRECTORY model/checkpoints DESTINATION ${CMAKE_INSTALL_DATADIR}/choreo COMPONENT programs)
 configure_file(docker/choreod.service.in ${CMAKE_BINARY_DIR}/choreod.service @ONLY)

@@ -10,9 +10,9 @@ import re
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-TABLE = ROOT / "model/fit/human_rigs.h"
-NAMES = ROOT / "model/fit/human_bones.h"
-FINGERS = ROOT / "model/fit/finger_bones.cpp"
+TABLE = ROOT / "model/fit/bones/human_rigs.h"
+NAMES = ROOT / "model/fit/bones/human_bones.h"
+FINGERS = ROOT / "model/fit/bones/finger_bones.cpp"
 HANDS = ROOT / "model/core/hand_pose.h"
 OUT = ROOT / "client/node/character/bone_names.js"
 HEAD = f"""// The rigs' names of bones, written by scripts/bone_names.py from {TABLE.relative_to(ROOT)} and others, which explain them; do not edit.

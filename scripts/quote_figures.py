@@ -92,7 +92,7 @@ def quoted(page):
 
 
 def style_figures():
-    """How often default's styles are recognised, as model/flow/style_figures_file.h reads it."""
+    """How often default's styles are recognised, as model/flow/checkpoint/style_figures_file.h reads it."""
     weights = re.search(r"^Model default/(\w+),", json.loads((FIGURES / "liveliness.json").read_text())["summary"]).group(1)
     (row,) = rows_of("liveliness", "liveliness_styles_dancedb")
     styles = {"recognised": row["danced"], "chance": row["chance"], "low": row["danced interval"][0]}

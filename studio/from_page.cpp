@@ -7,7 +7,7 @@
 #include "model/audio/signal/format.h"
 #include "model/core/field.h"
 #include "model/formats/arrays/own_arrays.h"
-#include "model/motion/pose_limits.h"
+#include "model/motion/pose/pose_limits.h"
 #include "proto/wire/poses.h"
 
 namespace choreo::studio {

@@ -13,7 +13,7 @@
 #include "model/core/field.h"
 #include "model/core/limits.h"
 #include "model/core/rounded.h"
-#include "model/motion/pose_limits.h"
+#include "model/motion/pose/pose_limits.h"
 #include "proto/wire/control_messages.h"
 #include "proto/wire/convert.h"
 #include "studio/from_page.h"

@@ -12,9 +12,9 @@
 #include "model/core/hit.h"
 #include "model/core/limits.h"
 #include "model/formats/motion_file.h"
-#include "model/motion/joint_angles.h"
-#include "model/motion/kinematics.h"
-#include "model/motion/velocity_factors.h"
+#include "model/motion/controls/velocity_factors.h"
+#include "model/motion/kinematics/joint_angles.h"
+#include "model/motion/kinematics/kinematics.h"
 #include "studio/scratch_folder.h"
 
 namespace choreo::studio {

@@ -1,7 +1,7 @@
 // Dances for two and a half seconds without music: from rest to a pose with raised arms.
 //   first_dance HOST:PORT
 #include <client/choreo_client.h>
-#include <model/motion/kinematics.h>
+#include <model/motion/kinematics/kinematics.h>
 
 #include <iostream>
 

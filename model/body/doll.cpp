@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "model/motion/mirror.h"
+#include "model/motion/kinematics/mirror.h"
 
 namespace choreo {
 namespace {

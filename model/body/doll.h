@@ -5,7 +5,7 @@
 
 #include "model/body/colour.h"
 #include "model/body/rounded_cone.h"
-#include "model/motion/kinematics.h"
+#include "model/motion/kinematics/kinematics.h"
 #include "model/motion/motion.h"
 #include "model/motion/skeleton.h"
 

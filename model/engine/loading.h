@@ -45,7 +45,7 @@ KernelSet FirstIndependent(const std::vector<KernelSet>& sets,
 /// The code that computes a model; exactly one field is set.
 struct UsedKernels {
   std::string packed = {};  ///< PackedKernels::name
-  std::string torch = {};   ///< TorchKernels (model/flow/torch_kernels.h)
+  std::string torch = {};   ///< TorchKernels (model/flow/network/torch_kernels.h)
 };
 
 /// The kernels for a flow: the fastest that keep rows independent, or the requested ones. None:
@@ -59,7 +59,7 @@ std::string FingerprintOf(const std::string& name, const std::string& hash,
 /// The licence stated in a model card, or "".
 std::string LicenceOf(const std::string& card);
 
-/// The common part of all checkpoints (CheckpointOf, model/flow/checkpoint.h).
+/// The common part of all checkpoints (CheckpointOf, model/flow/checkpoint/checkpoint.h).
 template <typename Checkpoint>
 ModelInfo InfoOf(const Checkpoint& checkpoint, const UsedKernels& kernels) {
   const auto& config = checkpoint.model->config();

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "model/core/grid.h"
-#include "model/motion/kinematics.h"
+#include "model/motion/kinematics/kinematics.h"
 #include "model/plan/sampler.h"
 
 namespace choreo {

@@ -8,7 +8,7 @@
 #include "model/evaluation/runner.h"
 #include "model/evaluation/table.h"
 #include "model/evaluation/windows.h"
-#include "model/training/trainer.h"
+#include "model/training/trainer/trainer.h"
 
 namespace choreo {
 

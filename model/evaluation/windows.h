@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "model/dance/transition/transition.h"
-#include "model/training/prepared_clip.h"
+#include "model/training/clips/prepared_clip.h"
 
 namespace choreo {
 

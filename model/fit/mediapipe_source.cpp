@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "model/fit/fit_clip.h"
-#include "model/fit/mapping_builder.h"
+#include "model/fit/solver/fit_clip.h"
+#include "model/fit/sources/mapping_builder.h"
 
 namespace choreo {
 namespace {

@@ -2,10 +2,10 @@
 
 #include <string>
 
-#include "model/fit/fit_clip.h"
-#include "model/fit/mapping_builder.h"
-#include "model/motion/floor_clearance.h"
-#include "model/motion/kinematics.h"
+#include "model/fit/solver/fit_clip.h"
+#include "model/fit/sources/mapping_builder.h"
+#include "model/motion/floor/floor_clearance.h"
+#include "model/motion/kinematics/kinematics.h"
 
 namespace choreo {
 namespace {

@@ -5,12 +5,12 @@
 #include <cmath>
 #include <utility>
 
-#include "model/fit/fit_clip.h"
 #include "model/fit/rig_reading.h"
-#include "model/fit/sources.h"
-#include "model/motion/kinematics.h"
-#include "model/motion/mirror.h"
-#include "model/motion/pose_faults.h"
+#include "model/fit/solver/fit_clip.h"
+#include "model/fit/sources/sources.h"
+#include "model/motion/kinematics/kinematics.h"
+#include "model/motion/kinematics/mirror.h"
+#include "model/motion/pose/pose_faults.h"
 #include "model/motion/rotation.h"
 #include "model/motion/skeleton.h"
 

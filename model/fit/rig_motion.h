@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "model/fit/human_bones.h"
+#include "model/fit/bones/human_bones.h"
 #include "model/motion/motion.h"
 
 /// Converts a recording of any rig to rotations of SMPL's body: bone by bone, relative to the rest

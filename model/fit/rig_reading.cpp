@@ -7,7 +7,7 @@
 
 #include "model/core/error.h"
 #include "model/core/quantile.h"
-#include "model/motion/kinematics.h"
+#include "model/motion/kinematics/kinematics.h"
 #include "model/motion/rotation.h"
 #include "model/motion/skeleton.h"
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "model/fit/character_body.h"
+#include "model/fit/bones/character_body.h"
 #include "model/fit/rig_motion.h"
 
 /// Works out from a recording what its rig's rest pose and rotations mean, before fitting. Private

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "model/motion/kinematics.h"
+#include "model/motion/kinematics/kinematics.h"
 
 namespace choreo {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "model/core/slices.h"
-#include "model/flow/flow_model.h"
+#include "model/flow/window/flow_model.h"
 
 namespace choreo {
 

@@ -10,12 +10,12 @@
 #include "model/core/limits.h"
 #include "model/core/random.h"
 #include "model/flow/flow_field.h"
-#include "model/flow/window_energy.h"
-#include "model/flow/window_features.h"
-#include "model/motion/body_limits.h"
-#include "model/motion/canonical.h"
-#include "model/motion/kinematics.h"
+#include "model/flow/window/window_energy.h"
+#include "model/flow/window/window_features.h"
+#include "model/motion/kinematics/canonical.h"
+#include "model/motion/kinematics/kinematics.h"
 #include "model/motion/motion.h"
+#include "model/motion/pose/body_limits.h"
 #include "model/motion/resample.h"
 
 namespace choreo {

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "model/core/slices.h"
-#include "model/flow/flow_model.h"
-#include "model/flow/flow_window.h"
+#include "model/flow/window/flow_model.h"
+#include "model/flow/window/flow_window.h"
 #include "model/plan/sampler.h"
 #include "model/plan/takes.h"
 

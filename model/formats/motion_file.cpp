@@ -19,7 +19,7 @@
 #include "model/formats/containers/npz.h"
 #include "model/formats/containers/pickle.h"
 #include "model/formats/gltf/gltf.h"
-#include "model/motion/pose_limits.h"
+#include "model/motion/pose/pose_limits.h"
 #include "model/motion/skeleton_json.h"
 
 namespace choreo {

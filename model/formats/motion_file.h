@@ -7,7 +7,7 @@
 
 #include "model/formats/arrays/own_arrays.h"
 #include "model/formats/reading/motion_reading.h"
-#include "model/motion/contacts.h"
+#include "model/motion/floor/contacts.h"
 #include "model/motion/motion.h"
 #include "model/motion/skeleton.h"
 
@@ -34,8 +34,8 @@ void RequireWrittenMotionFile(const std::filesystem::path& path);
 /// an npz (own_arrays.h), BVH or glTF (own_skeleton.h). Any other rig is read as SMPL's body
 /// (node_motion.h): scaled by its legs, with its bones' rotations, put on the floor. Throws
 /// Error(kInvalidArgument), whose field begins with the path, for other extensions, files without
-/// frames, values beyond motion/pose_limits.h and what the formats refuse; UnknownBones if names do
-/// not identify enough bones; Error(kNotFound) if the file cannot be opened.
+/// frames, values beyond motion/pose/pose_limits.h and what the formats refuse; UnknownBones if
+/// names do not identify enough bones; Error(kNotFound) if the file cannot be opened.
 SkeletonMotion ReadMotion(const std::filesystem::path& path, const MotionReading& reading = {});
 
 /// The treatment of a motion with other bones: retarget it (fit/retarget.h), or refuse it with

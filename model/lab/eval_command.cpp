@@ -13,10 +13,10 @@
 #include "model/core/progress.h"
 #include "model/core/rounded.h"
 #include "model/engine/engine_choice.h"
-#include "model/evaluation/contest.h"
 #include "model/evaluation/eval_report.h"
-#include "model/evaluation/motion_encoder.h"
-#include "model/evaluation/paired_sheets.h"
+#include "model/evaluation/judges/contest.h"
+#include "model/evaluation/judges/motion_encoder.h"
+#include "model/evaluation/tables/paired_sheets.h"
 #include "model/lab/hear_songs.h"
 #include "model/papers/tables/paper_tables.h"
 

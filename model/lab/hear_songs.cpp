@@ -9,7 +9,7 @@
 
 #include "model/core/error.h"
 #include "model/evaluation/eval_report.h"
-#include "model/evaluation/hearing_table.h"
+#include "model/evaluation/tables/hearing_table.h"
 #include "model/samplers/samplers.h"
 
 #ifdef CHOREO_SERVICE

@@ -7,14 +7,14 @@
 #include "model/core/error.h"
 #include "model/core/programs.h"
 #include "model/core/threads.h"
-#include "model/evaluation/weigh_command.h"
+#include "model/evaluation/tables/weigh_command.h"
 #include "model/lab/eval_command.h"
 #include "model/lab/train_command.h"
 #include "model/papers/tables/study_command.h"
 #include "model/samplers/samplers.h"
 
 #ifdef CHOREO_SERVICE
-#include "model/training/prepare.h"
+#include "model/training/prepare/prepare.h"
 #endif
 
 namespace choreo {

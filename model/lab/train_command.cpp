@@ -10,7 +10,7 @@
 #include "model/core/error.h"
 #include "model/core/limits.h"
 #include "model/papers/training/paper_options.h"
-#include "model/training/trainer.h"
+#include "model/training/trainer/trainer.h"
 
 namespace choreo {
 namespace {

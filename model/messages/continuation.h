@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "model/messages/dance_event.h"
-#include "model/motion/canonical.h"
+#include "model/motion/kinematics/canonical.h"
 #include "model/motion/motion.h"
 
 namespace choreo {

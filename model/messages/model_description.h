@@ -7,8 +7,8 @@
 #include "model/core/grid.h"
 #include "model/core/limits.h"
 #include "model/messages/style_figures.h"
+#include "model/motion/controls/velocity_factors.h"
 #include "model/motion/skeleton.h"
-#include "model/motion/velocity_factors.h"
 
 namespace choreo {
 

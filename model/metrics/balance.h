@@ -3,8 +3,8 @@
 #include <vector>
 
 #include "model/metrics/joint_track.h"
+#include "model/motion/floor/support.h"
 #include "model/motion/skeleton.h"
-#include "model/motion/support.h"
 
 /// Measures whether a dancer seems to have weight: whether the feet support the body, and whether
 /// it pushes off, falls and lands like a real one. Pure functions of joint positions, of generated

@@ -7,7 +7,7 @@
 #include <numeric>
 
 #include "model/core/error.h"
-#include "model/motion/canonical.h"
+#include "model/motion/kinematics/canonical.h"
 #include "model/motion/rotation.h"
 
 namespace choreo {

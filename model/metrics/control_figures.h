@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 
 #include "model/metrics/joint_track.h"
-#include "model/motion/velocity_factors.h"
+#include "model/motion/controls/velocity_factors.h"
 
 /// Measures how well a transition follows its controls: the three figures of paper C, Section 4.3,
 /// Eq. 12-16. Each function returns one number per transition. LRP is the mean over transitions;

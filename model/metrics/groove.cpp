@@ -7,7 +7,7 @@
 #include "model/core/error.h"
 #include "model/metrics/band_filter.h"
 #include "model/metrics/joint_track.h"
-#include "model/motion/limb.h"
+#include "model/motion/kinematics/limb.h"
 #include "model/motion/rotation.h"
 
 namespace choreo {

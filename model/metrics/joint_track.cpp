@@ -3,8 +3,8 @@
 #include <string>
 
 #include "model/core/error.h"
-#include "model/motion/kinematics.h"
-#include "model/motion/velocity.h"
+#include "model/motion/kinematics/kinematics.h"
+#include "model/motion/kinematics/velocity.h"
 
 namespace choreo {
 

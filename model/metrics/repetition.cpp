@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "model/core/error.h"
-#include "model/motion/canonical.h"
-#include "model/motion/kinematics.h"
+#include "model/motion/kinematics/canonical.h"
+#include "model/motion/kinematics/kinematics.h"
 
 namespace choreo {
 namespace {

@@ -8,12 +8,12 @@
 #include <vector>
 
 #include "model/core/smooth_step.h"
-#include "model/motion/floor_clearance.h"
-#include "model/motion/kinematics.h"
-#include "model/motion/limb.h"
+#include "model/motion/floor/floor_clearance.h"
+#include "model/motion/floor/support.h"
+#include "model/motion/kinematics/kinematics.h"
+#include "model/motion/kinematics/limb.h"
 #include "model/motion/nearest_points.h"
 #include "model/motion/rotation.h"
-#include "model/motion/support.h"
 #include "model/plan/plan_stages.h"
 #include "model/plan/toes_path.h"
 

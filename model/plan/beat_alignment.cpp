@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "model/core/each_cpu.h"
-#include "model/motion/body_limits.h"
-#include "model/motion/kinematic_beats.h"
-#include "model/motion/kinematics.h"
+#include "model/motion/kinematics/kinematic_beats.h"
+#include "model/motion/kinematics/kinematics.h"
+#include "model/motion/pose/body_limits.h"
 #include "model/plan/plan_stages.h"
 
 namespace choreo {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "model/motion/body_limits.h"
-#include "model/motion/support.h"
+#include "model/motion/floor/support.h"
+#include "model/motion/pose/body_limits.h"
 
 namespace choreo {
 namespace {

@@ -3,7 +3,7 @@
 #include <limits>
 
 #include "model/core/smooth_step.h"
-#include "model/motion/kinematics.h"
+#include "model/motion/kinematics/kinematics.h"
 #include "model/plan/plan_stages.h"
 
 namespace choreo {

@@ -4,10 +4,10 @@
 #include <cmath>
 
 #include "model/core/gaussian_mean.h"
-#include "model/motion/body_mass.h"
-#include "model/motion/contacts.h"
-#include "model/motion/floor_clearance.h"
-#include "model/motion/support.h"
+#include "model/motion/floor/contacts.h"
+#include "model/motion/floor/floor_clearance.h"
+#include "model/motion/floor/support.h"
+#include "model/motion/kinematics/body_mass.h"
 
 namespace choreo {
 namespace {

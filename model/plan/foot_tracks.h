@@ -4,8 +4,8 @@
 #include <array>
 #include <vector>
 
-#include "model/motion/kinematics.h"
-#include "model/motion/limb.h"
+#include "model/motion/kinematics/kinematics.h"
+#include "model/motion/kinematics/limb.h"
 #include "model/plan/contact_plan.h"
 #include "model/plan/footwork.h"
 

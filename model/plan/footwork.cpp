@@ -6,11 +6,11 @@
 #include <limits>
 
 #include "model/core/smooth_step.h"
-#include "model/motion/body_mass.h"
-#include "model/motion/contacts.h"
-#include "model/motion/kinematics.h"
-#include "model/motion/limb.h"
-#include "model/motion/support.h"
+#include "model/motion/floor/contacts.h"
+#include "model/motion/floor/support.h"
+#include "model/motion/kinematics/body_mass.h"
+#include "model/motion/kinematics/kinematics.h"
+#include "model/motion/kinematics/limb.h"
 #include "model/plan/contact_plan.h"
 #include "model/plan/foot_tracks.h"
 #include "model/plan/pelvis_offset.h"

@@ -35,7 +35,7 @@ struct Footwork {
 /// (contact_plan.h), and on a path steps to where the body needs support. Moves toes between
 /// stances (toes_path.h), and moves the pelvis so that legs reach and the body is balanced
 /// (pelvis_offset.h). Inverse kinematics then poses the legs. Leaves plans unchanged for skeletons
-/// without legs or with unknown masses (motion/body_mass.h). Pure, thread-safe.
+/// without legs or with unknown masses (motion/kinematics/body_mass.h). Pure, thread-safe.
 Footwork StandOnFeet(const FootworkContext& context, std::vector<Pose>* plan);
 
 }  // namespace choreo

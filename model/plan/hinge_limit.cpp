@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "model/motion/limb.h"
+#include "model/motion/kinematics/limb.h"
 #include "model/plan/plan_stages.h"
 
 namespace choreo {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <initializer_list>
 
-#include "model/motion/support.h"
+#include "model/motion/floor/support.h"
 
 namespace choreo {
 namespace {

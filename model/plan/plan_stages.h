@@ -28,7 +28,7 @@ struct PlanContext {
 };
 
 /// Limits knees and elbows to bends between straight and folded, with a soft stop at both ends, and
-/// limits their change per frame to NextBend (motion/limb.h).
+/// limits their change per frame to NextBend (motion/kinematics/limb.h).
 void LimitHinges(const PlanContext& context, std::vector<Pose>* plan);
 
 /// Returns the dancer to the floor, which dancers touch at least every few seconds. Lowers or
@@ -65,10 +65,10 @@ void HitKey(const PlanContext& context, double hit, std::vector<Pose>* plan);
 double HitTime(double u, double hit);
 
 /// Turns shoulders, by a quarter turn at most, so that forearms and hands stay out of the trunk:
-/// kTrunkDepth (motion/floor_clearance.h) from the line through its joints or, near the history and
-/// a key, as far as these are. Each time that an arm would pass through, it goes round in front,
-/// behind or outside, whichever leaves it least inside and then shakes it least. For a plan after
-/// arrival, as arrival moves arms, too.
+/// kTrunkDepth (motion/floor/floor_clearance.h) from the line through its joints or, near the
+/// history and a key, as far as these are. Each time that an arm would pass through, it goes round
+/// in front, behind or outside, whichever leaves it least inside and then shakes it least. For a
+/// plan after arrival, as arrival moves arms, too.
 void KeepArmsOutside(const PlanContext& context, std::vector<Pose>* plan);
 
 /// The stages in order, for models with ModelInfo::plan_stages.

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "model/core/slices.h"
-#include "model/motion/kinematics.h"
+#include "model/motion/kinematics/kinematics.h"
 #include "model/plan/sampler.h"
 
 namespace choreo {

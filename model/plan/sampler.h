@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "model/core/slices.h"
-#include "model/motion/contacts.h"
+#include "model/motion/floor/contacts.h"
 #include "model/plan/transition_spec.h"
 
 /// The interface between dances and networks: takes a transition's spec and returns its plan.

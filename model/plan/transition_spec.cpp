@@ -7,7 +7,7 @@
 #include "model/core/error.h"
 #include "model/core/nearest.h"
 #include "model/core/range.h"
-#include "model/motion/pose_limits.h"
+#include "model/motion/pose/pose_limits.h"
 
 namespace choreo {
 namespace {

@@ -13,8 +13,8 @@
 #include "model/core/limits.h"
 #include "model/core/valid.h"
 #include "model/messages/model_description.h"
-#include "model/motion/canonical.h"
-#include "model/motion/controls.h"
+#include "model/motion/controls/controls.h"
+#include "model/motion/kinematics/canonical.h"
 #include "model/motion/motion.h"
 #include "model/plan/arrival.h"
 #include "model/plan/plan_options.h"
@@ -64,7 +64,7 @@ struct MusicRows {
 };
 
 /// All inputs of a transition. All poses are in one frame of reference: the world's for a
-/// TransitionRun, the canonical one (motion/canonical.h) for a Sampler.
+/// TransitionRun, the canonical one (motion/kinematics/canonical.h) for a Sampler.
 struct TransitionSpec {
   int frames = 0;             ///< N >= 1; with a target, frame N-1 is the key's
   std::vector<Pose> history;  ///< tau poses, oldest first; the last one directly precedes frame 0

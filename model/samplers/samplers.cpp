@@ -13,10 +13,10 @@
 #include "model/core/threads.h"
 #include "model/engine/loading.h"
 #include "model/engine/packed/packed_flow_network.h"
-#include "model/flow/continuous_flow.h"
+#include "model/flow/checkpoint/style_figures_file.h"
 #include "model/flow/flow_sampler.h"
-#include "model/flow/style_figures_file.h"
-#include "model/flow/torch_kernels.h"
+#include "model/flow/network/continuous_flow.h"
+#include "model/flow/network/torch_kernels.h"
 #include "model/papers/samplers/paper_samplers.h"
 
 namespace choreo {

@@ -28,8 +28,8 @@ void SetTorchThreads(int threads);
 /// fingerprint; empty: the fastest here. It does not affect LibTorch. `notes` gets
 /// FirstIndependent's notes (model/engine/loading.h), and what is wrong with the file of
 /// ReadStyleFigures, which changes nothing else. Throws like ReadSafetensors and
-/// ParseContinuousFlow (model/flow/continuous_flow.h) do, and Error(kInvalidArgument) for a kind or
-/// kernels that the device or machine lacks.
+/// ParseContinuousFlow (model/flow/network/continuous_flow.h) do, and Error(kInvalidArgument) for a
+/// kind or kernels that the device or machine lacks.
 std::vector<std::unique_ptr<Sampler>> MakeSamplers(const std::filesystem::path& checkpoint,
                                                    std::span<const Device> devices,
                                                    EngineKind kind = EngineKind::kAuto,

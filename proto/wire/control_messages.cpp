@@ -2,8 +2,8 @@
 
 #include "model/core/error.h"
 #include "model/core/field.h"
-#include "model/motion/controls.h"
-#include "model/motion/velocity_factors.h"
+#include "model/motion/controls/controls.h"
+#include "model/motion/controls/velocity_factors.h"
 
 namespace choreo::wire {
 namespace {

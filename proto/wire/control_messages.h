@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "choreo/v1/choreography.pb.h"
-#include "model/motion/control_request.h"
-#include "model/motion/controls.h"
+#include "model/motion/controls/control_request.h"
+#include "model/motion/controls/controls.h"
 
 /// Converts controls to the API's messages and back, for server, client and studio. Pure functions,
 /// thread-safe.

@@ -2,8 +2,8 @@
 #include <iterator>
 
 #include "model/core/error.h"
-#include "model/motion/controls.h"
-#include "model/motion/velocity_factors.h"
+#include "model/motion/controls/controls.h"
+#include "model/motion/controls/velocity_factors.h"
 #include "proto/wire/control_messages.h"
 #include "proto/wire/convert.h"
 

@@ -1,4 +1,4 @@
-#include "model/motion/controls.h"
+#include "model/motion/controls/controls.h"
 #include "proto/wire/control_messages.h"
 #include "proto/wire/convert.h"
 #include "proto/wire/field_path.h"

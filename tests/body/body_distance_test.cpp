@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "model/body/doll.h"
-#include "model/motion/kinematics.h"
+#include "model/motion/kinematics/kinematics.h"
 #include "tests/support/expect_error.h"
 
 namespace choreo::body_distance_test {

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <fstream>
 
-#include "model/motion/kinematics.h"
-#include "model/motion/mirror.h"
+#include "model/motion/kinematics/kinematics.h"
+#include "model/motion/kinematics/mirror.h"
 #include "tests/client/stage_fixture.h"
 
 /// `choreo edit` of whole dances and of phrases.

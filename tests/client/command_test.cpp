@@ -14,7 +14,7 @@
 #include "model/core/atomic_file.h"
 #include "model/core/npy.h"
 #include "model/formats/motion_file.h"
-#include "model/motion/kinematics.h"
+#include "model/motion/kinematics/kinematics.h"
 #include "tests/client/command_fixture.h"
 #include "tests/client/test_music.h"
 

@@ -5,7 +5,7 @@
 
 #include "client/choreo_client.h"
 #include "client/edit.h"
-#include "model/motion/kinematics.h"
+#include "model/motion/kinematics/kinematics.h"
 #include "tests/client/test_server.h"
 #include "tests/support/expect_error.h"
 

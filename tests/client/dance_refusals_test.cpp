@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "model/formats/motion_file.h"
-#include "model/motion/kinematics.h"
+#include "model/motion/kinematics/kinematics.h"
 #include "tests/client/command_fixture.h"
 #include "tests/client/test_music.h"
 

@@ -13,7 +13,7 @@
 
 #include "client/authoring/keys/pose_library.h"
 #include "client/choreo_client.h"
-#include "model/motion/kinematics.h"
+#include "model/motion/kinematics/kinematics.h"
 #include "tests/client/test_music.h"
 #include "tests/client/test_server.h"
 #include "tests/support/eventually.h"

@@ -12,7 +12,7 @@
 
 #include "model/formats/containers/npz.h"
 #include "model/formats/motion_file.h"
-#include "model/motion/kinematics.h"
+#include "model/motion/kinematics/kinematics.h"
 #include "tests/client/command_fixture.h"
 #include "tests/client/test_music.h"
 

@@ -4,7 +4,7 @@
 #include <fstream>
 
 #include "model/core/atomic_file.h"
-#include "model/motion/canonical.h"
+#include "model/motion/kinematics/canonical.h"
 #include "tests/client/edit_fixture.h"
 
 /// What `choreo edit` takes from a dance's report, and which reports it refuses.

@@ -5,7 +5,7 @@
 #include <fstream>
 
 #include "client/authoring/keys/pose_library.h"
-#include "model/motion/canonical.h"
+#include "model/motion/kinematics/canonical.h"
 #include "tests/client/edit_fixture.h"
 
 namespace choreo::edit_test {

@@ -12,7 +12,7 @@
 #include "client/cli/report/report_controls.h"
 #include "model/dance/controls/control_track.h"
 #include "model/dance/transition/dance_score.h"
-#include "model/flow/window_features.h"
+#include "model/flow/window/window_features.h"
 #include "proto/wire/control_messages.h"
 #include "tests/flow/flow_scene.h"
 #include "tests/support/expect_error.h"

@@ -4,7 +4,7 @@
 #include <random>
 #include <vector>
 
-#include "model/motion/kinematics.h"
+#include "model/motion/kinematics/kinematics.h"
 #include "model/motion/motion.h"
 #include "model/motion/rotation.h"
 #include "model/motion/skeleton.h"

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "model/body/doll.h"
-#include "model/motion/kinematics.h"
+#include "model/motion/kinematics/kinematics.h"
 #include "model/motion/rotation.h"
 #include "tests/support/expect_error.h"
 

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "model/motion/kinematics.h"
+#include "model/motion/kinematics/kinematics.h"
 #include "model/motion/rotation.h"
 #include "tests/support/expect_error.h"
 

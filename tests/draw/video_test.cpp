@@ -9,7 +9,7 @@
 #include <fstream>
 #include <iterator>
 
-#include "model/motion/kinematics.h"
+#include "model/motion/kinematics/kinematics.h"
 #include "tests/support/expect_error.h"
 #include "tests/support/temporary_folder.h"
 

@@ -1,4 +1,4 @@
-#include "model/evaluation/beat_table.h"
+#include "model/evaluation/tables/beat_table.h"
 
 #include <gtest/gtest.h>
 

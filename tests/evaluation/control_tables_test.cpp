@@ -4,8 +4,8 @@
 #include <iterator>
 
 #include "model/evaluation/evaluation.h"
-#include "model/evaluation/interpolation_sampler.h"
-#include "model/motion/kinematics.h"
+#include "model/evaluation/judges/interpolation_sampler.h"
+#include "model/motion/kinematics/kinematics.h"
 #include "model/motion/rotation.h"
 #include "tests/support/fake_sampler.h"
 #include "tests/support/synthetic_clips.h"

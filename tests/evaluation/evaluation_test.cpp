@@ -5,10 +5,10 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "model/evaluation/contest.h"
 #include "model/evaluation/eval_report.h"
-#include "model/evaluation/interpolation_sampler.h"
-#include "model/motion/kinematics.h"
+#include "model/evaluation/judges/contest.h"
+#include "model/evaluation/judges/interpolation_sampler.h"
+#include "model/motion/kinematics/kinematics.h"
 #include "model/motion/resample.h"
 #include "tests/support/expect_error.h"
 #include "tests/support/fake_sampler.h"

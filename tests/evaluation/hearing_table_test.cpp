@@ -1,4 +1,4 @@
-#include "model/evaluation/hearing_table.h"
+#include "model/evaluation/tables/hearing_table.h"
 
 #include <gtest/gtest.h>
 

@@ -6,10 +6,10 @@
 #include <nlohmann/json.hpp>
 
 #include "model/dance/delivery/quality_meter.h"
-#include "model/evaluation/interpolation_sampler.h"
-#include "model/evaluation/liveliness_figures.h"
-#include "model/evaluation/long_plans.h"
-#include "model/motion/kinematics.h"
+#include "model/evaluation/judges/interpolation_sampler.h"
+#include "model/evaluation/judges/long_plans.h"
+#include "model/evaluation/tables/liveliness_figures.h"
+#include "model/motion/kinematics/kinematics.h"
 #include "tests/support/fake_sampler.h"
 #include "tests/support/synthetic_clips.h"
 

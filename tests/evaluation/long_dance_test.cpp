@@ -7,9 +7,9 @@
 #include <nlohmann/json.hpp>
 
 #include "model/evaluation/evaluation.h"
-#include "model/evaluation/long_figures.h"
-#include "model/evaluation/long_plans.h"
-#include "model/motion/kinematics.h"
+#include "model/evaluation/judges/long_figures.h"
+#include "model/evaluation/judges/long_plans.h"
+#include "model/motion/kinematics/kinematics.h"
 #include "tests/support/fake_sampler.h"
 #include "tests/support/synthetic_clips.h"
 

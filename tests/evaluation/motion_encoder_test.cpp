@@ -1,4 +1,4 @@
-#include "model/evaluation/motion_encoder.h"
+#include "model/evaluation/judges/motion_encoder.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "model/evaluation/evaluation.h"
-#include "model/motion/canonical.h"
-#include "model/motion/kinematics.h"
+#include "model/motion/kinematics/canonical.h"
+#include "model/motion/kinematics/kinematics.h"
 #include "tests/support/expect_error.h"
 #include "tests/support/fake_sampler.h"
 #include "tests/support/synthetic_clips.h"

@@ -5,9 +5,9 @@
 #include <numbers>
 
 #include "model/core/error.h"
-#include "model/fit/fit_clip.h"
-#include "model/fit/sources.h"
-#include "model/motion/kinematics.h"
+#include "model/fit/solver/fit_clip.h"
+#include "model/fit/sources/sources.h"
+#include "model/motion/kinematics/kinematics.h"
 #include "model/motion/rotation.h"
 #include "tests/fit/fit_fixtures.h"
 

@@ -1,12 +1,12 @@
-#include "model/fit/character_body.h"
+#include "model/fit/bones/character_body.h"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
 #include <cmath>
 
-#include "model/fit/transfer.h"
-#include "model/motion/kinematics.h"
+#include "model/fit/bones/transfer.h"
+#include "model/motion/kinematics/kinematics.h"
 #include "tests/fit/fit_fixtures.h"
 #include "tests/support/expect_error.h"
 #include "tests/support/proportions.h"

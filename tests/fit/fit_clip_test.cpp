@@ -1,11 +1,11 @@
-#include "model/fit/fit_clip.h"
+#include "model/fit/solver/fit_clip.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "model/core/error.h"
-#include "model/motion/kinematics.h"
+#include "model/motion/kinematics/kinematics.h"
 #include "tests/fit/fit_fixtures.h"
 #include "tests/motion/motion_fixtures.h"
 

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "model/fit/character_body.h"
-#include "model/fit/position_clip.h"
-#include "model/motion/kinematics.h"
+#include "model/fit/bones/character_body.h"
+#include "model/fit/sources/position_clip.h"
+#include "model/motion/kinematics/kinematics.h"
 #include "tests/motion/motion_fixtures.h"
 
 namespace choreo::fixtures {

@@ -1,12 +1,12 @@
-#include "model/fit/guess_bones.h"
+#include "model/fit/bones/guess_bones.h"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
 #include <numbers>
 
-#include "model/fit/character_body.h"
-#include "model/motion/kinematics.h"
+#include "model/fit/bones/character_body.h"
+#include "model/motion/kinematics/kinematics.h"
 #include "tests/support/proportions.h"
 
 namespace choreo::guess_bones_test {

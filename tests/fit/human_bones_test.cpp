@@ -1,4 +1,4 @@
-#include "model/fit/human_bones.h"
+#include "model/fit/bones/human_bones.h"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
-#include "model/fit/inverse_kinematics.h"
+#include "model/fit/solver/inverse_kinematics.h"
 
 #include <gtest/gtest.h>
 
-#include "model/motion/kinematics.h"
+#include "model/motion/kinematics/kinematics.h"
 #include "tests/motion/motion_fixtures.h"
 
 namespace choreo::inverse_kinematics_test {

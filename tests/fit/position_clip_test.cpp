@@ -1,4 +1,4 @@
-#include "model/fit/position_clip.h"
+#include "model/fit/sources/position_clip.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "model/fit/position_fitter.h"
+#include "model/fit/solver/position_fitter.h"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 #include <random>
 
 #include "model/core/error.h"
-#include "model/fit/fit_clip.h"
-#include "model/motion/kinematics.h"
+#include "model/fit/solver/fit_clip.h"
+#include "model/motion/kinematics/kinematics.h"
 #include "model/motion/rotation.h"
 #include "tests/fit/fit_fixtures.h"
 #include "tests/motion/motion_fixtures.h"

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "model/motion/kinematics.h"
+#include "model/motion/kinematics/kinematics.h"
 #include "model/motion/skeleton_json.h"
 #include "tests/motion/motion_fixtures.h"
 #include "tests/support/expect_error.h"

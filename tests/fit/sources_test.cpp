@@ -1,13 +1,13 @@
-#include "model/fit/sources.h"
+#include "model/fit/sources/sources.h"
 
 #include <gtest/gtest.h>
 
 #include <numbers>
 
 #include "model/core/error.h"
-#include "model/fit/fit_clip.h"
-#include "model/fit/position_fitter.h"
-#include "model/motion/kinematics.h"
+#include "model/fit/solver/fit_clip.h"
+#include "model/fit/solver/position_fitter.h"
+#include "model/motion/kinematics/kinematics.h"
 #include "model/motion/rotation.h"
 #include "tests/fit/fit_fixtures.h"
 #include "tests/support/tang2018_markers.h"

@@ -1,9 +1,9 @@
-#include "model/fit/tang2018_skeleton.h"
+#include "model/fit/sources/tang2018_skeleton.h"
 
 #include <gtest/gtest.h>
 
-#include "model/fit/fit_clip.h"
-#include "model/motion/mirror.h"
+#include "model/fit/solver/fit_clip.h"
+#include "model/motion/kinematics/mirror.h"
 #include "model/motion/rotation.h"
 #include "tests/motion/motion_fixtures.h"
 #include "tests/support/expect_error.h"

@@ -1,13 +1,13 @@
-#include "model/fit/transfer.h"
+#include "model/fit/bones/transfer.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <iostream>
 
-#include "model/motion/contacts.h"
-#include "model/motion/kinematics.h"
-#include "model/motion/limb.h"
+#include "model/motion/floor/contacts.h"
+#include "model/motion/kinematics/kinematics.h"
+#include "model/motion/kinematics/limb.h"
 #include "model/motion/rotation.h"
 #include "tests/fit/fit_fixtures.h"
 #include "tests/support/proportions.h"

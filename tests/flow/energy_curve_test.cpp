@@ -1,4 +1,4 @@
-#include "model/flow/energy_curve.h"
+#include "model/flow/priors/energy_curve.h"
 
 #include <gtest/gtest.h>
 

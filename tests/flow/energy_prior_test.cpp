@@ -1,4 +1,4 @@
-#include "model/flow/energy_prior.h"
+#include "model/flow/priors/energy_prior.h"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 #include <limits>
 #include <memory>
 
-#include "model/motion/body_limits.h"
+#include "model/motion/pose/body_limits.h"
 #include "tests/flow/flow_networks.h"
 
 namespace choreo::flow_sampler_test {

@@ -3,9 +3,9 @@
 #include <cmath>
 #include <vector>
 
-#include "model/flow/flow_model.h"
-#include "model/motion/canonical.h"
-#include "model/motion/kinematics.h"
+#include "model/flow/window/flow_model.h"
+#include "model/motion/kinematics/canonical.h"
+#include "model/motion/kinematics/kinematics.h"
 #include "tests/support/synthetic_clips.h"
 
 /// Scenes for tests of windows and sampling.

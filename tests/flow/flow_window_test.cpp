@@ -1,8 +1,8 @@
-#include "model/flow/flow_window.h"
+#include "model/flow/window/flow_window.h"
 
 #include <gtest/gtest.h>
 
-#include "model/flow/window_features.h"
+#include "model/flow/window/window_features.h"
 #include "model/motion/rotation.h"
 #include "tests/flow/flow_scene.h"
 

@@ -2,7 +2,7 @@
 
 #include <span>
 
-#include "model/flow/window_features.h"
+#include "model/flow/window/window_features.h"
 #include "tests/flow/flow_scene.h"
 
 // The order and the values of a window's input features, as the shipped checkpoints were trained on

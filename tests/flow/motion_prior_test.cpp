@@ -1,4 +1,4 @@
-#include "model/flow/motion_prior.h"
+#include "model/flow/priors/motion_prior.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "model/flow/style_figures_file.h"
+#include "model/flow/checkpoint/style_figures_file.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "model/flow/time_embedding.h"
+#include "model/flow/window/time_embedding.h"
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,10 @@
-#include "model/flow/torch_kinematics.h"
+#include "model/flow/network/torch_kinematics.h"
 
 #include <gtest/gtest.h>
 #include <torch/types.h>
 
 #include "model/core/random.h"
-#include "model/motion/kinematics.h"
+#include "model/motion/kinematics/kinematics.h"
 #include "model/motion/rotation.h"
 
 namespace choreo::torch_kinematics_test {

@@ -3,7 +3,7 @@
 #include <array>
 #include <numbers>
 
-#include "model/flow/window_features.h"
+#include "model/flow/window/window_features.h"
 #include "tests/flow/flow_scene.h"
 #include "tests/support/expect_error.h"
 #include "tests/support/toy_control.h"

@@ -1,4 +1,4 @@
-#include "model/flow/turn_prior.h"
+#include "model/flow/window/turn_prior.h"
 
 #include <gtest/gtest.h>
 

@@ -2,8 +2,8 @@
 
 #include <numbers>
 
-#include "model/flow/turn_prior.h"
-#include "model/motion/kinematics.h"
+#include "model/flow/window/turn_prior.h"
+#include "model/motion/kinematics/kinematics.h"
 #include "model/motion/skeleton.h"
 
 /// Dancers who must turn to a key.

@@ -1,4 +1,4 @@
-#include "model/flow/window_energy.h"
+#include "model/flow/window/window_energy.h"
 
 #include <gtest/gtest.h>
 

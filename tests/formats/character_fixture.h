@@ -5,10 +5,10 @@
 #include <functional>
 #include <numbers>
 
-#include "model/fit/transfer.h"
+#include "model/fit/bones/transfer.h"
 #include "model/formats/gltf/character_file.h"
 #include "model/formats/gltf/gltf_scene.h"
-#include "model/motion/kinematics.h"
+#include "model/motion/kinematics/kinematics.h"
 #include "tests/motion/motion_fixtures.h"
 #include "tests/support/character_rigs.h"
 #include "tests/support/glb_parts.h"

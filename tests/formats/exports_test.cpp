@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "model/body/skin.h"
-#include "model/fit/human_bones.h"
+#include "model/fit/bones/human_bones.h"
 #include "model/formats/arrays/amass_npz.h"
 #include "model/formats/gltf/gltf.h"
 #include "model/formats/motion_file.h"

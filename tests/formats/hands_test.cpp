@@ -2,7 +2,7 @@
 
 #include <map>
 
-#include "model/fit/finger_bones.h"
+#include "model/fit/bones/finger_bones.h"
 #include "tests/formats/character_fixture.h"
 
 namespace choreo::hands_test {

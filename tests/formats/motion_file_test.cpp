@@ -7,7 +7,7 @@
 #include "model/core/atomic_file.h"
 #include "model/formats/bvh/bvh.h"
 #include "model/formats/containers/npz.h"
-#include "model/motion/kinematics.h"
+#include "model/motion/kinematics/kinematics.h"
 #include "tests/motion/motion_fixtures.h"
 #include "tests/support/expect_error.h"
 #include "tests/support/full_disk.h"

@@ -1,6 +1,6 @@
 #include "client/cli/options/bone_map.h"
 
-#include "model/fit/find_bones.h"
+#include "model/fit/bones/find_bones.h"
 #include "model/motion/skeleton.h"
 #include "tests/fuzz/fuzz.h"
 #include "tests/fuzz/input_file.h"

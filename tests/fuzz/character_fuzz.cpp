@@ -1,7 +1,7 @@
-#include "model/fit/guess_bones.h"
-#include "model/fit/transfer.h"
+#include "model/fit/bones/guess_bones.h"
+#include "model/fit/bones/transfer.h"
 #include "model/formats/gltf/character_file.h"
-#include "model/motion/kinematics.h"
+#include "model/motion/kinematics/kinematics.h"
 #include "tests/fuzz/fuzz.h"
 #include "tests/fuzz/input_file.h"
 

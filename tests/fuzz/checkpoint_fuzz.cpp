@@ -1,5 +1,5 @@
-#include "model/flow/checkpoint_file.h"
-#include "model/flow/continuous_flow_config.h"
+#include "model/flow/checkpoint/checkpoint_file.h"
+#include "model/flow/window/continuous_flow_config.h"
 #include "model/papers/networks/flow_config.h"
 #include "tests/fuzz/fuzz.h"
 #include "tests/fuzz/input_file.h"

@@ -4,8 +4,8 @@
 
 #include <numbers>
 
-#include "model/motion/canonical.h"
-#include "model/motion/kinematics.h"
+#include "model/motion/kinematics/canonical.h"
+#include "model/motion/kinematics/kinematics.h"
 #include "model/motion/rotation.h"
 #include "tests/metrics/moving_body.h"
 #include "tests/support/expect_error.h"

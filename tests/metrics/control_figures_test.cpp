@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "model/metrics/repetition.h"
-#include "model/motion/kinematics.h"
+#include "model/motion/kinematics/kinematics.h"
 #include "model/motion/rotation.h"
 #include "tests/support/expect_error.h"
 

@@ -7,7 +7,7 @@
 #include "model/core/random.h"
 #include "model/metrics/frechet.h"
 #include "model/metrics/motion_features.h"
-#include "model/motion/kinematics.h"
+#include "model/motion/kinematics/kinematics.h"
 #include "tests/support/expect_error.h"
 
 namespace choreo::dance_features_test {

@@ -6,7 +6,7 @@
 #include "model/metrics/groove.h"
 #include "model/metrics/joint_track.h"
 #include "model/metrics/pose_distance.h"
-#include "model/motion/kinematics.h"
+#include "model/motion/kinematics/kinematics.h"
 #include "tests/support/expect_error.h"
 
 namespace choreo::distance_test {

@@ -4,7 +4,7 @@
 #include <functional>
 
 #include "model/metrics/joint_track.h"
-#include "model/motion/kinematics.h"
+#include "model/motion/kinematics/kinematics.h"
 #include "model/motion/skeleton.h"
 
 namespace choreo::testing_support {

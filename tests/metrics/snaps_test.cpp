@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "model/motion/kinematics.h"
+#include "model/motion/kinematics/kinematics.h"
 
 namespace choreo::snaps_test {
 

@@ -1,10 +1,10 @@
-#include "model/motion/body_limits.h"
+#include "model/motion/pose/body_limits.h"
 
 #include <gtest/gtest.h>
 
 #include <vector>
 
-#include "model/motion/kinematics.h"
+#include "model/motion/kinematics/kinematics.h"
 
 namespace choreo {
 namespace {

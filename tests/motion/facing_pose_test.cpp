@@ -1,11 +1,11 @@
-#include "model/motion/facing_pose.h"
+#include "model/motion/pose/facing_pose.h"
 
 #include <gtest/gtest.h>
 
 #include <numbers>
 
-#include "model/motion/canonical.h"
-#include "model/motion/kinematics.h"
+#include "model/motion/kinematics/canonical.h"
+#include "model/motion/kinematics/kinematics.h"
 #include "tests/support/synthetic_clips.h"
 
 namespace choreo::facing_pose_test {

@@ -1,10 +1,10 @@
-#include "model/motion/joint_angles.h"
+#include "model/motion/kinematics/joint_angles.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "model/motion/kinematics.h"
+#include "model/motion/kinematics/kinematics.h"
 #include "tests/motion/motion_fixtures.h"
 #include "tests/support/expect_error.h"
 

@@ -1,4 +1,4 @@
-#include "model/motion/kinematic_beats.h"
+#include "model/motion/kinematics/kinematic_beats.h"
 
 #include <gtest/gtest.h>
 

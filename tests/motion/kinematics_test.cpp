@@ -1,4 +1,4 @@
-#include "model/motion/kinematics.h"
+#include "model/motion/kinematics/kinematics.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -6,8 +6,8 @@
 #include <numbers>
 
 #include "model/core/error.h"
-#include "model/motion/canonical.h"
-#include "model/motion/mirror.h"
+#include "model/motion/kinematics/canonical.h"
+#include "model/motion/kinematics/mirror.h"
 #include "model/motion/rotation.h"
 #include "tests/motion/motion_fixtures.h"
 

@@ -1,4 +1,4 @@
-#include "model/motion/limb.h"
+#include "model/motion/kinematics/limb.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "model/core/random.h"
-#include "model/motion/kinematics.h"
+#include "model/motion/kinematics/kinematics.h"
 
 namespace choreo::leg_test {
 

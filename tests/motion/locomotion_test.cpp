@@ -3,12 +3,12 @@
 #include <numbers>
 
 #include "model/core/error.h"
-#include "model/motion/canonical.h"
-#include "model/motion/contacts.h"
-#include "model/motion/kinematics.h"
+#include "model/motion/floor/contacts.h"
+#include "model/motion/kinematics/canonical.h"
+#include "model/motion/kinematics/kinematics.h"
+#include "model/motion/kinematics/velocity.h"
 #include "model/motion/resample.h"
 #include "model/motion/rotation.h"
-#include "model/motion/velocity.h"
 #include "tests/motion/motion_fixtures.h"
 
 namespace choreo::locomotion_test {

@@ -1,14 +1,14 @@
-#include "model/motion/pose_codec.h"
+#include "model/motion/pose/pose_codec.h"
 
 #include <gtest/gtest.h>
 
 #include <numbers>
 
 #include "model/core/error.h"
-#include "model/motion/kinematics.h"
+#include "model/motion/kinematics/kinematics.h"
+#include "model/motion/kinematics/velocity.h"
 #include "model/motion/resample.h"
 #include "model/motion/rotation.h"
-#include "model/motion/velocity.h"
 #include "tests/motion/motion_fixtures.h"
 
 namespace choreo::pose_codec_test {

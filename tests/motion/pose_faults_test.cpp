@@ -1,10 +1,10 @@
-#include "model/motion/pose_faults.h"
+#include "model/motion/pose/pose_faults.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "model/motion/floor_clearance.h"
-#include "model/motion/kinematics.h"
+#include "model/motion/floor/floor_clearance.h"
+#include "model/motion/kinematics/kinematics.h"
 
 namespace choreo::pose_faults_test {
 

@@ -1,4 +1,4 @@
-#include "model/motion/support.h"
+#include "model/motion/floor/support.h"
 
 #include <gtest/gtest.h>
 
@@ -6,8 +6,8 @@
 #include <functional>
 
 #include "model/core/random.h"
-#include "model/motion/body_mass.h"
-#include "model/motion/kinematics.h"
+#include "model/motion/kinematics/body_mass.h"
+#include "model/motion/kinematics/kinematics.h"
 #include "model/motion/rotation.h"
 
 namespace choreo::support_test {

@@ -1,8 +1,8 @@
-#include "model/motion/velocity_factors.h"
+#include "model/motion/controls/velocity_factors.h"
 
 #include <gtest/gtest.h>
 
-#include "model/motion/kinematics.h"
+#include "model/motion/kinematics/kinematics.h"
 #include "model/motion/rotation.h"
 #include "tests/motion/motion_fixtures.h"
 #include "tests/support/expect_error.h"

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "model/motion/floor_clearance.h"
-#include "model/motion/kinematics.h"
-#include "model/motion/mirror.h"
+#include "model/motion/floor/floor_clearance.h"
+#include "model/motion/kinematics/kinematics.h"
+#include "model/motion/kinematics/mirror.h"
 #include "model/motion/nearest_points.h"
 #include "model/motion/rotation.h"
 #include "model/plan/plan_stages.h"

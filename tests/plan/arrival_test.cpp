@@ -4,7 +4,7 @@
 
 #include <random>
 
-#include "model/motion/kinematics.h"
+#include "model/motion/kinematics/kinematics.h"
 #include "model/motion/rotation.h"
 #include "tests/dance/poses.h"
 

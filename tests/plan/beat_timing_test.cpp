@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "model/motion/kinematic_beats.h"
-#include "model/motion/kinematics.h"
+#include "model/motion/kinematics/kinematic_beats.h"
+#include "model/motion/kinematics/kinematics.h"
 #include "model/motion/rotation.h"
 #include "model/plan/plan_stages.h"
 

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "model/motion/body_limits.h"
+#include "model/motion/pose/body_limits.h"
 #include "model/plan/toes_path.h"
 
 namespace choreo::contact_plan_test {

@@ -8,11 +8,11 @@
 
 #include "model/core/random.h"
 #include "model/core/smooth_step.h"
-#include "model/motion/body_limits.h"
-#include "model/motion/body_mass.h"
-#include "model/motion/canonical.h"
-#include "model/motion/kinematics.h"
-#include "model/motion/limb.h"
+#include "model/motion/kinematics/body_mass.h"
+#include "model/motion/kinematics/canonical.h"
+#include "model/motion/kinematics/kinematics.h"
+#include "model/motion/kinematics/limb.h"
+#include "model/motion/pose/body_limits.h"
 #include "model/motion/rotation.h"
 
 namespace choreo::footwork_test {

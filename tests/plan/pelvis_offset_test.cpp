@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "model/motion/support.h"
+#include "model/motion/floor/support.h"
 
 namespace choreo::pelvis_offset_test {
 

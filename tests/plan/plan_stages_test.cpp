@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "model/motion/kinematics.h"
+#include "model/motion/kinematics/kinematics.h"
 
 namespace choreo::plan_stages_test {
 

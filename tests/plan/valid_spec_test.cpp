@@ -4,7 +4,7 @@
 
 #include <limits>
 
-#include "model/motion/kinematics.h"
+#include "model/motion/kinematics/kinematics.h"
 #include "tests/support/expect_error.h"
 
 namespace choreo::valid_spec_test {

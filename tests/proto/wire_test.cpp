@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "model/core/error.h"
-#include "model/motion/kinematics.h"
-#include "model/motion/velocity_factors.h"
+#include "model/motion/controls/velocity_factors.h"
+#include "model/motion/kinematics/kinematics.h"
 #include "proto/wire/continuation_message.h"
 #include "proto/wire/field_path.h"
 #include "proto/wire/poses.h"

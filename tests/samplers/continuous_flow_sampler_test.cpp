@@ -7,7 +7,7 @@
 #include "model/dance/transition/transition.h"
 #include "model/engine/packed/kernels.h"
 #include "model/flow/flow_sampler.h"
-#include "model/motion/kinematics.h"
+#include "model/motion/kinematics/kinematics.h"
 #include "model/plan/takes.h"
 #include "model/samplers/samplers.h"
 #include "tests/samplers/sampled.h"

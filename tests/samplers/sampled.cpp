@@ -7,7 +7,7 @@
 
 #include "bench/random_checkpoints.h"
 #include "model/core/random.h"
-#include "model/motion/kinematics.h"
+#include "model/motion/kinematics/kinematics.h"
 
 namespace choreo {
 namespace {

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "google/rpc/status.pb.h"
-#include "model/motion/kinematics.h"
+#include "model/motion/kinematics/kinematics.h"
 #include "tests/support/eventually.h"
 
 namespace choreo {

@@ -15,7 +15,7 @@
 #include "client/authoring/keys/key_file.h"
 #include "client/convert.h"
 #include "client/edit.h"
-#include "model/motion/kinematics.h"
+#include "model/motion/kinematics/kinematics.h"
 #include "studio/from_page.h"
 #include "studio/page_session.h"
 #include "studio/project_dance.h"

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "model/core/atomic_file.h"
-#include "model/motion/kinematics.h"
+#include "model/motion/kinematics/kinematics.h"
 #include "proto/wire/convert.h"
 #include "studio/web_server.h"
 #include "tests/client/test_music.h"

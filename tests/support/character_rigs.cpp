@@ -4,9 +4,9 @@
 #include <numbers>
 #include <random>
 
-#include "model/fit/human_bones.h"
+#include "model/fit/bones/human_bones.h"
 #include "model/formats/gltf/gltf.h"
-#include "model/motion/kinematics.h"
+#include "model/motion/kinematics/kinematics.h"
 #include "model/motion/rotation.h"
 #include "tests/support/glb_parts.h"
 

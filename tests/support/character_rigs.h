@@ -9,7 +9,8 @@
 namespace choreo::testing_support {
 
 struct CharacterRig {
-  std::string rig = "Mixamo and HumanIK";  ///< the naming (fit/human_bones.h); empty: no names
+  std::string rig =
+      "Mixamo and HumanIK";  ///< the naming (fit/bones/human_bones.h); empty: no names
   std::string prefix = "mixamorig:";
   Skeleton body = Skeleton::Smpl24();  ///< the proportions
   double arms_down = 0;                ///< at rest, degrees: 45 is an A-pose

@@ -11,7 +11,7 @@
 #include "model/audio/signal/mfcc.h"
 #include "model/core/error.h"
 #include "model/core/random.h"
-#include "model/motion/velocity_factors.h"
+#include "model/motion/controls/velocity_factors.h"
 #include "model/plan/sampler.h"
 
 namespace choreo {

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "model/fit/tang2018_skeleton.h"
-#include "model/motion/kinematics.h"
+#include "model/fit/sources/tang2018_skeleton.h"
+#include "model/motion/kinematics/kinematics.h"
 #include "tests/motion/motion_fixtures.h"
 #include "tests/support/tang2018_markers.h"
 

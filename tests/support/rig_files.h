@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "model/fit/human_bones.h"
+#include "model/fit/bones/human_bones.h"
 #include "model/formats/bvh/bvh.h"
 #include "model/motion/rotation.h"
 

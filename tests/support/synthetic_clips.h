@@ -5,10 +5,10 @@
 #include <fstream>
 #include <string>
 
-#include "model/motion/contacts.h"
-#include "model/motion/kinematics.h"
+#include "model/motion/floor/contacts.h"
+#include "model/motion/kinematics/kinematics.h"
 #include "model/motion/skeleton.h"
-#include "model/training/prepared_clip.h"
+#include "model/training/clips/prepared_clip.h"
 
 namespace choreo::testing_support {
 

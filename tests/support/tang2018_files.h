@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "model/core/npy.h"
-#include "model/fit/position_clip.h"
+#include "model/fit/sources/position_clip.h"
 
 namespace choreo {
 

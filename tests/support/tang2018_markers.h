@@ -3,9 +3,9 @@
 #include <Eigen/Core>
 #include <string>
 
-#include "model/fit/position_clip.h"
-#include "model/fit/sources.h"
-#include "model/motion/kinematics.h"
+#include "model/fit/sources/position_clip.h"
+#include "model/fit/sources/sources.h"
+#include "model/motion/kinematics/kinematics.h"
 #include "model/motion/motion.h"
 #include "model/motion/skeleton.h"
 

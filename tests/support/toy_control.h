@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
-#include "model/motion/control_request.h"
-#include "model/motion/controls.h"
+#include "model/motion/controls/control_request.h"
+#include "model/motion/controls/controls.h"
 
 /// A control that the API does not have, written as docs/extending.md says: where the dancer looks.
 namespace choreo::toy {

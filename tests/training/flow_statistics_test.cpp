@@ -1,4 +1,4 @@
-#include "model/training/flow_statistics.h"
+#include "model/training/flow_matching/flow_statistics.h"
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,9 @@
-#include "model/training/jolts.h"
+#include "model/training/prepare/jolts.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "model/motion/kinematics.h"
+#include "model/motion/kinematics/kinematics.h"
 #include "tests/support/synthetic_clips.h"
 
 namespace choreo::jolts_test {

@@ -1,13 +1,13 @@
-#include "model/training/recordings.h"
+#include "model/training/prepare/recordings.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
 
-#include "model/fit/fit_clip.h"
+#include "model/fit/solver/fit_clip.h"
 #include "model/formats/bvh/bvh.h"
-#include "model/motion/kinematics.h"
+#include "model/motion/kinematics/kinematics.h"
 #include "model/motion/rotation.h"
 #include "tests/support/expect_error.h"
 #include "tests/support/synthetic_clips.h"

@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "model/training/prepare.h"
-#include "model/training/prepared_clip.h"
+#include "model/training/clips/prepared_clip.h"
+#include "model/training/prepare/prepare.h"
 #include "tests/support/temporary_folder.h"
 
 namespace choreo {

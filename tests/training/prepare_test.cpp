@@ -6,7 +6,7 @@
 #include "model/core/error.h"
 #include "model/formats/arrays/amass_npz.h"
 #include "model/formats/bvh/bvh.h"
-#include "model/motion/kinematics.h"
+#include "model/motion/kinematics/kinematics.h"
 #include "tests/support/synthetic_clips.h"
 #include "tests/training/preparation.h"
 

@@ -1,10 +1,10 @@
-#include "model/training/prepared_clip.h"
+#include "model/training/clips/prepared_clip.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "model/core/error.h"
-#include "model/training/clip_split.h"
+#include "model/training/clips/clip_split.h"
 #include "tests/support/expect_error.h"
 #include "tests/support/native_tang2018.h"
 #include "tests/support/synthetic_clips.h"

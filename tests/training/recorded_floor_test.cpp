@@ -1,4 +1,4 @@
-#include "model/training/recorded_floor.h"
+#include "model/training/prepare/recorded_floor.h"
 
 #include <gtest/gtest.h>
 

@@ -8,7 +8,7 @@
 #include "model/audio/music/feature_stream.h"
 #include "model/audio/signal/mfcc.h"
 #include "model/core/error.h"
-#include "model/motion/kinematics.h"
+#include "model/motion/kinematics/kinematics.h"
 #include "model/motion/resample.h"
 #include "tests/support/expect_error.h"
 #include "tests/support/music_files.h"

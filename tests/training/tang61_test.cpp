@@ -6,10 +6,10 @@
 
 #include "model/core/error.h"
 #include "model/core/npy.h"
-#include "model/motion/kinematics.h"
+#include "model/motion/kinematics/kinematics.h"
 #include "model/motion/resample.h"
-#include "model/training/beat_grid.h"
-#include "model/training/recordings.h"
+#include "model/training/prepare/beat_grid.h"
+#include "model/training/prepare/recordings.h"
 #include "tests/support/expect_error.h"
 #include "tests/support/music_files.h"
 #include "tests/support/synthetic_clips.h"

@@ -1,4 +1,4 @@
-#include "model/training/trainer.h"
+#include "model/training/trainer/trainer.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -11,8 +11,8 @@
 
 #include "model/core/error.h"
 #include "model/core/safetensors.h"
-#include "model/training/adam.h"
-#include "model/training/flow_training.h"
+#include "model/training/flow_matching/flow_training.h"
+#include "model/training/trainer/adam.h"
 #include "tests/support/synthetic_clips.h"
 #include "tests/support/temporary_folder.h"
 

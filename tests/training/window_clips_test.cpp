@@ -1,4 +1,4 @@
-#include "model/training/window_clips.h"
+#include "model/training/windows/window_clips.h"
 
 #include <gtest/gtest.h>
 #include <torch/types.h>
@@ -7,11 +7,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "model/motion/kinematics.h"
-#include "model/motion/mirror.h"
-#include "model/training/clip_statistics.h"
-#include "model/training/flow_statistics.h"
-#include "model/training/window_body.h"
+#include "model/motion/kinematics/kinematics.h"
+#include "model/motion/kinematics/mirror.h"
+#include "model/training/clips/clip_statistics.h"
+#include "model/training/flow_matching/flow_statistics.h"
+#include "model/training/windows/window_body.h"
 #include "tests/support/synthetic_clips.h"
 
 namespace choreo::window_clips_test {

@@ -12,7 +12,7 @@
 #include "client/authoring/fields/json_fields.h"
 #include "client/authoring/keys/dance_keys.h"
 #include "client/choreo_client.h"
-#include "model/motion/controls.h"
+#include "model/motion/controls/controls.h"
 
 /// The controls of a dance as people write them, in options, files and projects.
 namespace choreo::authoring {

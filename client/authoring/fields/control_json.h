@@ -9,9 +9,9 @@
 
 #include "model/core/error.h"
 
-/// Converts a control's request (model/motion/control_request.h) to and from JSON, for reports and
-/// projects. The JSON has the fields of the API's message that are not empty.
-/// Points are x, z, x, z, and so on.
+/// Converts a control's request (model/motion/controls/control_request.h) to and from JSON, for
+/// reports and projects. The JSON has the fields of the API's message that are not empty. Points
+/// are x, z, x, z, and so on.
 namespace choreo::authoring {
 
 struct ControlFieldWriter {

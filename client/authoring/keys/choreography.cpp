@@ -7,7 +7,7 @@
 
 #include "model/audio/beats/suggest_keys.h"
 #include "model/core/grid.h"
-#include "model/motion/canonical.h"
+#include "model/motion/kinematics/canonical.h"
 
 namespace choreo::authoring {
 namespace {

@@ -9,7 +9,7 @@
 #include "client/authoring/notes/notes.h"
 #include "model/core/error.h"
 #include "model/core/rounded.h"
-#include "model/motion/canonical.h"
+#include "model/motion/kinematics/canonical.h"
 
 namespace choreo::authoring {
 namespace {

@@ -10,9 +10,9 @@
 #include "model/core/error.h"
 #include "model/core/grid.h"
 #include "model/core/rounded.h"
-#include "model/motion/floor_clearance.h"
-#include "model/motion/kinematics.h"
-#include "model/motion/support.h"
+#include "model/motion/floor/floor_clearance.h"
+#include "model/motion/floor/support.h"
+#include "model/motion/kinematics/kinematics.h"
 
 namespace choreo::authoring {
 namespace {

@@ -4,13 +4,13 @@
 #include <vector>
 
 #include "client/authoring/keys/dance_keys.h"
-#include "model/motion/pose_faults.h"
+#include "model/motion/pose/pose_faults.h"
 
 namespace choreo::authoring {
 
 /// Returns warnings, with frames, about keys that ByTime changed, then about impossible keys: "key
 /// \"leap\" (keys.json: keyframes[2]): the body hangs 2 m above the floor; ..."
-/// (motion/pose_faults.h).
+/// (motion/pose/pose_faults.h).
 std::vector<client::Warning> KeyFaults(const DanceKeys& keys, double fps, const Skeleton& skeleton);
 
 /// Throws Error(kInvalidArgument), whose field is the key's place, for a key with an impossible

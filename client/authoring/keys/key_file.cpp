@@ -18,7 +18,7 @@
 #include "model/core/nearest.h"
 #include "model/core/rounded.h"
 #include "model/formats/motion_file.h"
-#include "model/motion/kinematics.h"
+#include "model/motion/kinematics/kinematics.h"
 #include "model/motion/resample.h"
 
 namespace choreo::authoring {

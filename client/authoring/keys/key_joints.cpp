@@ -9,7 +9,7 @@
 #include "client/authoring/keys/pose_library.h"
 #include "model/core/error.h"
 #include "model/fit/retarget.h"
-#include "model/motion/joint_angles.h"
+#include "model/motion/kinematics/joint_angles.h"
 
 namespace choreo::authoring {
 namespace {

@@ -14,7 +14,7 @@ client::KeyPose ReadNamedPose(const nlohmann::json& value, const std::string& fi
                               const Skeleton& skeleton);
 
 /// Reads the member `joints` of a key. A list of names limits the key's pose to these joints. An
-/// object sets joints of the key's pose in degrees (motion/joint_angles.h). Throws
+/// object sets joints of the key's pose in degrees (motion/kinematics/joint_angles.h). Throws
 /// Error(kInvalidArgument) whose field is FIELD.joints, or FIELD.joints.NAME.
 void ReadJoints(const nlohmann::json& joints, const std::string& field, const Skeleton& skeleton,
                 client::KeyPose* key);

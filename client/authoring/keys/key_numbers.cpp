@@ -9,7 +9,7 @@
 #include "model/fit/retarget.h"
 #include "model/formats/arrays/amass_npz.h"
 #include "model/formats/containers/npz.h"
-#include "model/motion/pose_limits.h"
+#include "model/motion/pose/pose_limits.h"
 
 namespace choreo::authoring {
 namespace {

@@ -12,9 +12,9 @@
 #include "model/fit/retarget.h"
 #include "model/formats/containers/npz.h"
 #include "model/formats/motion_file.h"
-#include "model/motion/floor_clearance.h"
-#include "model/motion/kinematics.h"
-#include "model/motion/pose_limits.h"
+#include "model/motion/floor/floor_clearance.h"
+#include "model/motion/kinematics/kinematics.h"
+#include "model/motion/pose/pose_limits.h"
 #include "model/motion/rotation.h"
 
 namespace choreo::authoring {

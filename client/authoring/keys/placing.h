@@ -6,7 +6,7 @@
 #include <string>
 
 #include "client/dance_messages.h"
-#include "model/motion/canonical.h"
+#include "model/motion/kinematics/canonical.h"
 
 namespace choreo::authoring {
 

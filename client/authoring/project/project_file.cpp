@@ -8,7 +8,7 @@
 #include "model/core/error.h"
 #include "model/core/joined.h"
 #include "model/core/rounded.h"
-#include "model/motion/velocity_factors.h"
+#include "model/motion/controls/velocity_factors.h"
 
 namespace choreo::authoring {
 namespace {

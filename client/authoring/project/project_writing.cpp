@@ -8,7 +8,7 @@
 #include "client/authoring/keys/key_file.h"
 #include "client/authoring/project/project_file.h"
 #include "model/core/hand_pose.h"
-#include "model/motion/controls.h"
+#include "model/motion/controls/controls.h"
 
 namespace choreo::authoring {
 namespace {

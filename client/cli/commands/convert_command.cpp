@@ -17,7 +17,7 @@
 #include "model/formats/gltf/gltf.h"
 #include "model/formats/motion_file.h"
 #include "model/formats/reading/root_motion.h"
-#include "model/motion/contacts.h"
+#include "model/motion/floor/contacts.h"
 #include "model/motion/resample.h"
 
 namespace choreo::cli {

@@ -10,7 +10,7 @@
 #include "client/cli/options/connection.h"
 #include "client/describe_styles.h"
 #include "model/core/counted.h"
-#include "model/motion/controls.h"
+#include "model/motion/controls/controls.h"
 
 namespace choreo::cli {
 namespace {

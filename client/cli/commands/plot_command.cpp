@@ -16,10 +16,10 @@
 #include "model/core/error.h"
 #include "model/draw/plot.h"
 #include "model/formats/motion_file.h"
-#include "model/motion/kinematic_beats.h"
-#include "model/motion/kinematics.h"
-#include "model/motion/path_curve.h"
-#include "model/motion/velocity_factors.h"
+#include "model/motion/controls/path_curve.h"
+#include "model/motion/controls/velocity_factors.h"
+#include "model/motion/kinematics/kinematic_beats.h"
+#include "model/motion/kinematics/kinematics.h"
 
 namespace choreo::cli {
 namespace {

@@ -18,9 +18,9 @@
 #include "model/core/error.h"
 #include "model/core/joined.h"
 #include "model/draw/contact_sheet.h"
-#include "model/motion/canonical.h"
-#include "model/motion/joint_angles.h"
-#include "model/motion/pose_faults.h"
+#include "model/motion/kinematics/canonical.h"
+#include "model/motion/kinematics/joint_angles.h"
+#include "model/motion/pose/pose_faults.h"
 
 namespace choreo::cli {
 namespace {

@@ -10,11 +10,11 @@
 #include "model/body/doll.h"
 #include "model/core/error.h"
 #include "model/core/rounded.h"
-#include "model/fit/inverse_kinematics.h"
-#include "model/motion/floor_clearance.h"
-#include "model/motion/joint_angles.h"
-#include "model/motion/kinematics.h"
-#include "model/motion/mirror.h"
+#include "model/fit/solver/inverse_kinematics.h"
+#include "model/motion/floor/floor_clearance.h"
+#include "model/motion/kinematics/joint_angles.h"
+#include "model/motion/kinematics/kinematics.h"
+#include "model/motion/kinematics/mirror.h"
 
 namespace choreo::cli {
 namespace {

@@ -16,11 +16,12 @@ struct PoseRecipe {
   std::string from = "rest";
   /// Files with poses from photos (photo_pose.h), instead of `from`: at most one.
   std::string from_landmarks = {}, from_smpl = {};
-  /// "left_elbow=90", "left_shoulder=10,0,-45": joints in degrees (motion/joint_angles.h).
+  /// "left_elbow=90", "left_shoulder=10,0,-45": joints in degrees
+  /// (motion/kinematics/joint_angles.h).
   std::vector<std::string> set;
   std::optional<double> height_m;  ///< of the body's lowest point above the floor; none: unchanged
-  /// "right_hand=0.3,1.6,0.2": joints moved to places, metres (fit/inverse_kinematics.h). The
-  /// height of foot joints is the sole's: 0 is the floor.
+  /// "right_hand=0.3,1.6,0.2": joints moved to places, metres (fit/solver/inverse_kinematics.h).
+  /// The height of foot joints is the sole's: 0 is the floor.
   std::vector<std::string> reach;
   bool keeps_hands = false;         ///< and the head in place when the pelvis moves
   bool mirror = false;              ///< swaps left and right

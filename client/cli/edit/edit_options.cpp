@@ -14,7 +14,7 @@
 #include "model/core/atomic_file.h"
 #include "model/core/joined.h"
 #include "model/core/rounded.h"
-#include "model/motion/controls.h"
+#include "model/motion/controls/controls.h"
 #include "model/motion/resample.h"
 
 namespace choreo::cli {

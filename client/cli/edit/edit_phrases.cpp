@@ -8,7 +8,7 @@
 #include "client/cli/edit/key_room.h"
 #include "model/core/limits.h"
 #include "model/core/rounded.h"
-#include "model/motion/mirror.h"
+#include "model/motion/kinematics/mirror.h"
 
 namespace choreo::cli {
 namespace {

@@ -15,7 +15,7 @@
 #include "model/core/limits.h"
 #include "model/core/rounded.h"
 #include "model/formats/motion_file.h"
-#include "model/motion/mirror.h"
+#include "model/motion/kinematics/mirror.h"
 #include "model/motion/resample.h"
 
 namespace choreo::cli {

@@ -9,7 +9,7 @@
 #include "client/cli/edit/edited_report.h"
 #include "client/cli/options/connection.h"
 #include "client/edit.h"
-#include "model/motion/canonical.h"
+#include "model/motion/kinematics/canonical.h"
 
 namespace choreo::cli {
 

@@ -9,8 +9,8 @@
 #include "model/core/error.h"
 #include "model/core/printable.h"
 #include "model/draw/bone_chart.h"
-#include "model/fit/character_body.h"
-#include "model/fit/guess_bones.h"
+#include "model/fit/bones/character_body.h"
+#include "model/fit/bones/guess_bones.h"
 
 namespace choreo::cli {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "model/fit/find_bones.h"
+#include "model/fit/bones/find_bones.h"
 
 /// Bone maps: JSON that assigns nodes of a rig to bones, such as {"bones": {"pelvis": "Hips",
 /// "left_hip": "UpLeg_L", "left_foot": null}}.

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "model/motion/contacts.h"
+#include "model/motion/floor/contacts.h"
 #include "model/motion/motion.h"
 #include "model/motion/skeleton.h"
 

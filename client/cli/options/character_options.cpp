@@ -8,9 +8,9 @@
 #include "client/cli/options/options.h"
 #include "client/cli/report/report_file.h"
 #include "model/core/error.h"
-#include "model/fit/finger_bones.h"
+#include "model/fit/bones/finger_bones.h"
+#include "model/fit/bones/transfer.h"
 #include "model/fit/retarget.h"
-#include "model/fit/transfer.h"
 #include "model/formats/gltf/character_file.h"
 #include "model/formats/motion_file.h"
 

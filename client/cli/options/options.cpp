@@ -16,8 +16,8 @@
 #include "model/core/nearest.h"
 #include "model/core/range.h"
 #include "model/core/rounded.h"
-#include "model/motion/controls.h"
-#include "model/motion/pose_faults.h"
+#include "model/motion/controls/controls.h"
+#include "model/motion/pose/pose_faults.h"
 
 namespace choreo::cli {
 namespace {

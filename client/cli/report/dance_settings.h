@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "client/dance_config.h"
-#include "model/motion/control_request.h"
+#include "model/motion/controls/control_request.h"
 
 namespace choreo::cli {
 

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "client/authoring/fields/control_json.h"
-#include "model/motion/control_request.h"
-#include "model/motion/controls.h"
-#include "model/motion/mirror.h"
+#include "model/motion/controls/control_request.h"
+#include "model/motion/controls/controls.h"
+#include "model/motion/kinematics/mirror.h"
 
 /// The controls requested for a dance, in its report. Frames are the model's.
 namespace choreo::cli {

@@ -13,8 +13,8 @@
 #include "client/cli/report/motion_sketch.h"
 #include "client/dance_messages.h"
 #include "model/core/grid.h"
-#include "model/fit/finger_bones.h"
-#include "model/motion/kinematics.h"
+#include "model/fit/bones/finger_bones.h"
+#include "model/motion/kinematics/kinematics.h"
 
 namespace choreo::cli {
 

@@ -1,5 +1,5 @@
 // A character's rig as a skeleton that rests like SMPL's: arms out to the sides, limbs in SMPL's directions, feet flat, in the character's own unit
-// and proportions. model/fit/character_body.cpp, in JavaScript.
+// and proportions. model/fit/bones/character_body.cpp, in JavaScript.
 import { about, add, between, cross, dot, length, middle, minus, scaled, times, turned, unit } from './linear.js';
 import { Skeleton } from './skeleton.js';
 

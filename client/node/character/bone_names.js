@@ -1,4 +1,4 @@
-// The rigs' names of bones, written by scripts/bone_names.py from model/fit/human_rigs.h and others, which explain them; do not edit.
+// The rigs' names of bones, written by scripts/bone_names.py from model/fit/bones/human_rigs.h and others, which explain them; do not edit.
 
 export const limbBones = ["hip", "knee", "ankle", "foot", "collar", "shoulder", "elbow", "wrist", "hand", "eye"];
 

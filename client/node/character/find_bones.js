@@ -1,4 +1,4 @@
-// Which nodes of a rig are the bones of its body. model/fit/find_bones.cpp, in JavaScript, for rigs that have one body.
+// Which nodes of a rig are the bones of its body. model/fit/bones/find_bones.cpp, in JavaScript, for rigs that have one body.
 import { allBones, bonesByNames } from './human_bones.js';
 import { chain, missingBones } from './body.js';
 

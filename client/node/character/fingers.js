@@ -1,4 +1,4 @@
-// What hands do: fingers bend towards the palm. model/fit/finger_bones.cpp, in JavaScript.
+// What hands do: fingers bend towards the palm. model/fit/bones/finger_bones.cpp, in JavaScript.
 import { fingerNames, handBends, handPoses } from './bone_names.js';
 import { about, add, cross, dot, fromQuaternion, inverse, length, minus, scaled, times, toQuaternion, turned, unit } from './linear.js';
 

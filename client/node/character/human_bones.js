@@ -1,4 +1,4 @@
-// Which names are which bones of a human body. model/fit/human_bones.cpp, in JavaScript; the names themselves are a copy that
+// Which names are which bones of a human body. model/fit/bones/human_bones.cpp, in JavaScript; the names themselves are a copy that
 // scripts/bone_names.py makes.
 import { limbBones, rigs } from './bone_names.js';
 

@@ -1,4 +1,4 @@
-// Two-bone inverse kinematics. model/motion/limb.cpp, in JavaScript.
+// Two-bone inverse kinematics. model/motion/kinematics/limb.cpp, in JavaScript.
 import { about, add, between, column, cross, dot, length, minus, scaled, times, transposed, turned, unit } from './linear.js';
 
 // The last share of a limb's length, over which it straightens softly: near full length a millimetre of reach is six degrees of bend.

@@ -1,4 +1,4 @@
-// A dance of SMPL's body on a character's, whose rest pose is SMPL's. model/fit/transfer.cpp, in JavaScript.
+// A dance of SMPL's body on a character's, whose rest pose is SMPL's. model/fit/bones/transfer.cpp, in JavaScript.
 import { add, cross, fromQuaternion, length, middle, minus, scaled, slerp, times, toQuaternion, transposed, turned, unit } from './linear.js';
 import { placeEnd, placeToes } from './limb.js';
 

@@ -19,7 +19,7 @@ const handPoses = ['rest', 'relaxed', 'open', 'fist', 'point'];
 const [mostSeconds, mostFrame] = [1e9, 1e9];
 const folded = 165; // degrees: the largest bend
 // Limits of turns about each axis, in degrees either way, by a part of the joint's name. Other joints may turn by 180 degrees. The limits are
-// the same in model/motion/joint_angles.cpp.
+// the same in model/motion/kinematics/joint_angles.cpp.
 const mostTurn = { collar: 60, wrist: 90, ankle: 80, foot: 60, toe: 60, spine: 60, neck: 80, head: 80 };
 
 /** Reads the keys of a key file as requests for streamDance; index.d.ts documents it. */

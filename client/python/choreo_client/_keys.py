@@ -27,7 +27,7 @@ _HANDS = ("rest", "relaxed", "open", "fist", "point")
 _MOST_SECONDS = _MOST_FRAME = 10**9
 _FOLDED = 165  # degrees: the largest bend
 # Limits of turns about each axis, in degrees either way, by a part of the joint's name. Other joints may turn by 180 degrees. The limits are the
-# same in model/motion/joint_angles.cpp.
+# same in model/motion/kinematics/joint_angles.cpp.
 _MOST_TURN = {"collar": 60, "wrist": 90, "ankle": 80, "foot": 60, "toe": 60, "spine": 60, "neck": 80, "head": 80}
 
 

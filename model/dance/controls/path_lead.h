@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "model/core/grid.h"
-#include "model/motion/path_curve.h"
+#include "model/motion/controls/path_curve.h"
 
 namespace choreo {
 

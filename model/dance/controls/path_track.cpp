@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "model/dance/controls/path_lead.h"
-#include "model/motion/kinematics.h"
+#include "model/motion/kinematics/kinematics.h"
 
 namespace choreo {
 namespace {

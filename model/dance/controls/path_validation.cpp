@@ -4,7 +4,7 @@
 
 #include "model/core/error.h"
 #include "model/dance/timeline/validation.h"
-#include "model/motion/pose_limits.h"
+#include "model/motion/pose/pose_limits.h"
 
 namespace choreo {
 

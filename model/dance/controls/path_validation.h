@@ -2,8 +2,8 @@
 
 #include <string>
 
-#include "model/motion/control_request.h"
-#include "model/motion/path_curve.h"
+#include "model/motion/controls/control_request.h"
+#include "model/motion/controls/path_curve.h"
 
 namespace choreo {
 

@@ -9,8 +9,8 @@
 #include "model/dance/timeline/spec_poses.h"
 #include "model/dance/timeline/warning.h"
 #include "model/messages/quality_report.h"
-#include "model/motion/control_request.h"
-#include "model/motion/velocity_factors.h"
+#include "model/motion/controls/control_request.h"
+#include "model/motion/controls/velocity_factors.h"
 
 namespace choreo {
 

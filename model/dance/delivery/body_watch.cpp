@@ -3,10 +3,10 @@
 #include <utility>
 
 #include "model/dance/timeline/warning.h"
-#include "model/motion/body_limits.h"
-#include "model/motion/contacts.h"
-#include "model/motion/floor_clearance.h"
-#include "model/motion/kinematics.h"
+#include "model/motion/floor/contacts.h"
+#include "model/motion/floor/floor_clearance.h"
+#include "model/motion/kinematics/kinematics.h"
+#include "model/motion/pose/body_limits.h"
 
 namespace choreo {
 

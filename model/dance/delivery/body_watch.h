@@ -13,7 +13,7 @@
 namespace choreo {
 
 /// Checks a dance, transition by transition, against the limits of human bodies
-/// (motion/body_limits.h): joint speed and length of flight. Not thread-safe.
+/// (motion/pose/body_limits.h): joint speed and length of flight. Not thread-safe.
 class BodyWatch {
  public:
   /// `before`: the pose before the first frame, if any. The skeleton must outlive this object.

@@ -8,8 +8,8 @@
 #include "model/audio/beats/beats.h"
 #include "model/core/error.h"
 #include "model/core/quantile.h"
-#include "model/motion/kinematic_beats.h"
-#include "model/motion/kinematics.h"
+#include "model/motion/kinematics/kinematic_beats.h"
+#include "model/motion/kinematics/kinematics.h"
 
 namespace choreo {
 namespace {

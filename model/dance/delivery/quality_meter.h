@@ -9,9 +9,9 @@
 
 #include "model/dance/transition/transition.h"
 #include "model/messages/quality_report.h"
+#include "model/motion/controls/velocity_factors.h"
+#include "model/motion/floor/support.h"
 #include "model/motion/skeleton.h"
-#include "model/motion/support.h"
-#include "model/motion/velocity_factors.h"
 
 namespace choreo {
 

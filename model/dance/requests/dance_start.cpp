@@ -14,7 +14,7 @@
 #include "model/dance/input/recurrence.h"
 #include "model/dance/timeline/timeline.h"
 #include "model/dance/timeline/validation.h"
-#include "model/motion/pose_limits.h"
+#include "model/motion/pose/pose_limits.h"
 #include "model/plan/transition_spec.h"
 
 namespace choreo {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "model/motion/kinematics.h"
+#include "model/motion/kinematics/kinematics.h"
 #include "model/motion/rotation.h"
 
 namespace choreo {

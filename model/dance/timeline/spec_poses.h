@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "model/motion/canonical.h"
+#include "model/motion/kinematics/canonical.h"
 #include "model/plan/transition_spec.h"
 
 /// The start and target poses of a transition, and the speeds needed between them. Pure functions.

@@ -10,7 +10,7 @@
 #include "model/dance/timeline/spec_poses.h"
 #include "model/messages/continuation.h"
 #include "model/motion/motion.h"
-#include "model/motion/pose_limits.h"
+#include "model/motion/pose/pose_limits.h"
 #include "model/plan/transition_spec.h"
 
 /// Checks of external input (for audio see audio/signal/format.h). Each function throws

@@ -7,7 +7,7 @@
 #include "model/core/grid.h"
 #include "model/core/joined.h"
 #include "model/core/rounded.h"
-#include "model/motion/body_limits.h"
+#include "model/motion/pose/body_limits.h"
 
 namespace choreo {
 namespace {

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <utility>
 
-#include "model/motion/body_limits.h"
-#include "model/motion/floor_clearance.h"
-#include "model/motion/kinematics.h"
-#include "model/motion/pose_faults.h"
+#include "model/motion/floor/floor_clearance.h"
+#include "model/motion/kinematics/kinematics.h"
+#include "model/motion/pose/body_limits.h"
+#include "model/motion/pose/pose_faults.h"
 #include "model/plan/takes.h"
 
 namespace choreo {

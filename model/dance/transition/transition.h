@@ -16,7 +16,7 @@
 #include "model/messages/continuation.h"
 #include "model/messages/dance_event.h"
 #include "model/messages/dance_manner.h"
-#include "model/motion/canonical.h"
+#include "model/motion/kinematics/canonical.h"
 #include "model/motion/motion.h"
 #include "model/plan/process_plan.h"
 #include "model/plan/sampler.h"

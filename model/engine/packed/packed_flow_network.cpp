@@ -5,7 +5,7 @@
 #include <cmath>
 #include <string>
 
-#include "model/flow/flow_tokens.h"
+#include "model/flow/window/flow_tokens.h"
 
 namespace choreo {
 namespace {

@@ -6,13 +6,13 @@
 #include "model/core/safetensors.h"
 #include "model/engine/packed/kernels.h"
 #include "model/engine/packed/matrix.h"
-#include "model/flow/flow_model.h"
+#include "model/flow/window/flow_model.h"
 
 namespace choreo {
 
-/// The continuous flow's network (model/flow/continuous_flow.h) on the calling CPU thread, one
-/// window at a time. Weights are read-only and shared by threads; each thread has a workspace that
-/// keeps its memory.
+/// The continuous flow's network (model/flow/network/continuous_flow.h) on the calling CPU thread,
+/// one window at a time. Weights are read-only and shared by threads; each thread has a workspace
+/// that keeps its memory.
 class PackedFlowNetwork : public FlowNetwork {
  public:
   /// Throws Error(kInvalidArgument) naming a tensor that is missing or does not fit the

@@ -18,7 +18,7 @@
 #include "model/formats/arrays/rotation_rows.h"
 #include "model/formats/reading/motion_check.h"
 #include "model/formats/reading/people.h"
-#include "model/motion/pose_limits.h"
+#include "model/motion/pose/pose_limits.h"
 #include "model/motion/rotation.h"
 
 namespace choreo {

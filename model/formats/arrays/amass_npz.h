@@ -4,7 +4,7 @@
 
 #include "model/formats/containers/npz.h"
 #include "model/formats/reading/motion_reading.h"
-#include "model/motion/contacts.h"
+#include "model/motion/floor/contacts.h"
 #include "model/motion/motion.h"
 
 /// Reads and writes SMPL motion in npz files: the layouts of AMASS, AIST++ and EDGE, and our own

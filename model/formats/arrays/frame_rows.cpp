@@ -14,7 +14,7 @@
 #include "model/formats/arrays/rotation_rows.h"
 #include "model/formats/reading/motion_check.h"
 #include "model/formats/reading/people.h"
-#include "model/motion/pose_limits.h"
+#include "model/motion/pose/pose_limits.h"
 
 namespace choreo {
 namespace {

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "model/core/error.h"
-#include "model/fit/fit_clip.h"
-#include "model/fit/sources.h"
+#include "model/fit/solver/fit_clip.h"
+#include "model/fit/sources/sources.h"
 #include "model/formats/reading/motion_check.h"
 #include "model/formats/reading/people.h"
 #include "model/motion/skeleton.h"

@@ -19,8 +19,8 @@ std::optional<NpyArray> FindJointArray(const NpzArchive& npz);
 /// they have constant limb lengths. Considers the first of several people, [people, F, ...].
 bool AreJointPlaces(const NpyArray& array);
 
-/// Fits SMPL's body, at its own size and on the floor, to the positions (fit/fit_clip.h). Notes
-/// that the rotations of head, hands and feet are guesses. `fps` is the file's. Throws
+/// Fits SMPL's body, at its own size and on the floor, to the positions (fit/solver/fit_clip.h).
+/// Notes that the rotations of head, hands and feet are guesses. `fps` is the file's. Throws
 /// Error(kInvalidArgument) if AreJointPlaces is false.
 Motion ReadJointPlaces(const NpyArray& array, double fps, const MotionReading& reading);
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "model/formats/containers/npz.h"
-#include "model/motion/contacts.h"
+#include "model/motion/floor/contacts.h"
 #include "model/motion/motion.h"
 #include "model/motion/skeleton.h"
 #include "model/motion/skeleton_motion.h"

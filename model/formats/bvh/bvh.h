@@ -8,8 +8,8 @@
 #include <string_view>
 #include <vector>
 
-#include "model/fit/position_clip.h"
 #include "model/fit/rig_motion.h"
+#include "model/fit/sources/position_clip.h"
 #include "model/formats/bvh/joint_names.h"
 #include "model/motion/motion.h"
 #include "model/motion/skeleton.h"
@@ -70,7 +70,7 @@ struct BvhFile {
 /// what was expected. Besides syntax errors, refuses a hierarchy without channels, a duplicate
 /// channel, numbers that are not finite, partial rows, rows of another length than the channels, a
 /// frame time outside 1e-5 to 4 s, lengths beyond 1e7 and angles beyond 1000 radians
-/// (motion/pose_limits.h).
+/// (motion/pose/pose_limits.h).
 BvhFile ParseBvh(std::string_view text, const std::string& name);
 /// Throws what ParseBvh throws, and Error(kNotFound) if the file cannot be opened.
 BvhFile ReadBvh(const std::filesystem::path& path);

@@ -12,7 +12,7 @@
 #include "model/core/rounded.h"
 #include "model/formats/bvh/bvh.h"
 #include "model/formats/bvh/bvh_tokens.h"
-#include "model/motion/pose_limits.h"
+#include "model/motion/pose/pose_limits.h"
 #include "model/motion/rotation.h"
 
 namespace choreo {

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "model/core/error.h"
-#include "model/fit/human_bones.h"
+#include "model/fit/bones/human_bones.h"
 
 namespace choreo {
 

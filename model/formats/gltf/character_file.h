@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "model/fit/character_body.h"
-#include "model/fit/find_bones.h"
-#include "model/fit/finger_bones.h"
+#include "model/fit/bones/character_body.h"
+#include "model/fit/bones/find_bones.h"
+#include "model/fit/bones/finger_bones.h"
 #include "model/formats/gltf/gltf_nodes.h"
 #include "model/formats/reading/root_motion.h"
 #include "model/motion/motion.h"
@@ -23,7 +23,7 @@ class CharacterFile {
   explicit CharacterFile(const std::filesystem::path& path);
 
   const GltfNodes& nodes() const { return nodes_; }
-  /// The nodes, for finding bones (fit/find_bones.h), in the file's unit.
+  /// The nodes, for finding bones (fit/bones/find_bones.h), in the file's unit.
   const RigNodes& rig() const { return rig_; }
   const Eigen::Matrix3Xd& places() const { return rig_.places; }
 

@@ -9,7 +9,7 @@
 #include "model/formats/gltf/glb_chunks.h"
 #include "model/formats/gltf/gltf_builder.h"
 #include "model/formats/gltf/gltf_file.h"
-#include "model/motion/kinematics.h"
+#include "model/motion/kinematics/kinematics.h"
 
 namespace choreo {
 namespace {

@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "model/fit/find_bones.h"
+#include "model/fit/bones/find_bones.h"
 #include "model/formats/gltf/gltf_file.h"
 
 /// The parts of a glTF's JSON that motions and characters need. Private to this folder.

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "model/formats/gltf/gltf_file.h"
-#include "model/motion/pose_limits.h"
+#include "model/motion/pose/pose_limits.h"
 
 namespace choreo {
 namespace {

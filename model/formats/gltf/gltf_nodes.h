@@ -37,7 +37,7 @@ struct GltfNodes {
   std::vector<GltfPlacement> rest;
 
   /// World transforms of all nodes. Throws Error(kInvalidArgument) for a node beyond the limits of
-  /// motions (motion/pose_limits.h).
+  /// motions (motion/pose/pose_limits.h).
   std::vector<Eigen::Affine3d> Place(const std::vector<GltfPlacement>& local) const;
   std::vector<Eigen::Affine3d> PlaceAtRest() const { return Place(rest); }
 };

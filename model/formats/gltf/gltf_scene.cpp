@@ -12,7 +12,7 @@
 #include "model/formats/gltf/glb_chunks.h"
 #include "model/formats/gltf/gltf_document.h"
 #include "model/formats/reading/node_motion.h"
-#include "model/motion/pose_limits.h"
+#include "model/motion/pose/pose_limits.h"
 #include "model/motion/resample.h"
 
 namespace choreo {

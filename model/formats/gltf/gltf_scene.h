@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "model/fit/find_bones.h"
+#include "model/fit/bones/find_bones.h"
 #include "model/formats/gltf/gltf_channels.h"
 #include "model/formats/gltf/gltf_nodes.h"
 #include "model/formats/reading/motion_reading.h"

@@ -3,11 +3,11 @@
 #include "model/body/skin.h"
 #include "model/core/atomic_file.h"
 #include "model/core/error.h"
-#include "model/fit/human_bones.h"
+#include "model/fit/bones/human_bones.h"
 #include "model/formats/arrays/own_arrays.h"
 #include "model/formats/gltf/gltf.h"
 #include "model/formats/gltf/gltf_builder.h"
-#include "model/motion/kinematics.h"
+#include "model/motion/kinematics/kinematics.h"
 #include "model/motion/rotation.h"
 
 namespace choreo {

@@ -11,9 +11,9 @@
 #include "model/core/error.h"
 #include "model/core/quantile.h"
 #include "model/core/rounded.h"
-#include "model/motion/floor_clearance.h"
-#include "model/motion/kinematics.h"
-#include "model/motion/pose_faults.h"
+#include "model/motion/floor/floor_clearance.h"
+#include "model/motion/kinematics/kinematics.h"
+#include "model/motion/pose/pose_faults.h"
 #include "model/motion/rotation.h"
 
 namespace choreo {

@@ -35,8 +35,8 @@ struct FileMotion {
 /// for `reading.up`.
 Motion CorrectMotion(FileMotion file, const MotionReading& reading);
 
-/// The share of frames with an impossible bend (motion/pose_faults.h), 0 to 1. `example`, if given,
-/// receives a fault of the first such frame.
+/// The share of frames with an impossible bend (motion/pose/pose_faults.h), 0 to 1. `example`, if
+/// given, receives a fault of the first such frame.
 double ShareOfFaults(const Skeleton& skeleton, const Motion& motion,
                      std::string* example = nullptr);
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "model/fit/find_bones.h"
+#include "model/fit/bones/find_bones.h"
 
 namespace choreo {
 

@@ -7,10 +7,10 @@
 #include "model/core/error.h"
 #include "model/core/quantile.h"
 #include "model/core/rounded.h"
-#include "model/fit/character_body.h"
-#include "model/fit/guess_bones.h"
+#include "model/fit/bones/character_body.h"
+#include "model/fit/bones/guess_bones.h"
 #include "model/formats/reading/motion_check.h"
-#include "model/motion/pose_limits.h"
+#include "model/motion/pose/pose_limits.h"
 #include "model/motion/skeleton.h"
 
 namespace choreo {

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <functional>
 
-#include "model/fit/find_bones.h"
+#include "model/fit/bones/find_bones.h"
 #include "model/fit/rig_motion.h"
 #include "model/formats/reading/motion_reading.h"
 #include "model/motion/motion.h"
@@ -20,9 +20,9 @@ struct NodeMotion {
   std::function<RigPlacement(int64_t frame)> frame = {};
 };
 
-/// Finds the bones (fit/find_bones.h) that `reading` assigns, or else of the body that it names, or
-/// of the first body that moves, with a note if others move, too. Some may be missing. Throws
-/// Error(kInvalidArgument) whose field is --body for a body that does not exist.
+/// Finds the bones (fit/bones/find_bones.h) that `reading` assigns, or else of the body that it
+/// names, or of the first body that moves, with a note if others move, too. Some may be missing.
+/// Throws Error(kInvalidArgument) whose field is --body for a body that does not exist.
 HumanBones FindBody(const RigNodes& nodes, const MotionReading& reading);
 
 /// Finds the bones (FindBody), transfers their rotations to SMPL's body (fit/rig_motion.h), and

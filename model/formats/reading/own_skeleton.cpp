@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "model/core/error.h"
-#include "model/motion/kinematics.h"
-#include "model/motion/limb.h"
+#include "model/motion/kinematics/kinematics.h"
+#include "model/motion/kinematics/limb.h"
 
 namespace choreo {
 namespace {

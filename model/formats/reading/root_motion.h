@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "model/motion/canonical.h"
+#include "model/motion/kinematics/canonical.h"
 #include "model/motion/motion.h"
 
 /// The node that carries the dancer over the floor. Game engines move characters themselves: with a

@@ -1,6 +1,6 @@
 #include "model/papers/networks/controlled_frames.h"
 
-#include "model/motion/velocity_factors.h"
+#include "model/motion/controls/velocity_factors.h"
 
 namespace choreo {
 

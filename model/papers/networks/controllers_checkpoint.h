@@ -5,11 +5,11 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
-#include "model/flow/checkpoint.h"
-#include "model/motion/velocity_factors.h"
+#include "model/flow/checkpoint/checkpoint.h"
+#include "model/motion/controls/velocity_factors.h"
 #include "model/papers/networks/controllers_model.h"
 
-/// Checkpoints of the controllers network (see model/flow/checkpoint.h).
+/// Checkpoints of the controllers network (see model/flow/checkpoint/checkpoint.h).
 namespace choreo {
 
 struct ControllersCheckpoint : CheckpointOf<ControllersModel> {

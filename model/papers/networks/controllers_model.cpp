@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "model/core/error.h"
-#include "model/motion/velocity_factors.h"
+#include "model/motion/controls/velocity_factors.h"
 #include "model/papers/networks/lstm_layer.h"
 #include "model/papers/networks/transition_tensors.h"
 

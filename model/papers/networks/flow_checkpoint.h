@@ -3,10 +3,10 @@
 #include <filesystem>
 #include <string>
 
-#include "model/flow/checkpoint.h"
+#include "model/flow/checkpoint/checkpoint.h"
 #include "model/papers/networks/frame_flow_model.h"
 
-/// Checkpoints of paper F's flow (see model/flow/checkpoint.h).
+/// Checkpoints of paper F's flow (see model/flow/checkpoint/checkpoint.h).
 namespace choreo {
 
 using Checkpoint = CheckpointOf<FlowModel>;

@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "model/core/error.h"
-#include "model/motion/pose_codec.h"
+#include "model/motion/pose/pose_codec.h"
 #include "model/papers/networks/key_condition.h"
 
 namespace choreo {

@@ -9,7 +9,7 @@
 #include <filesystem>
 #include <string>
 
-#include "model/flow/checkpoint.h"
+#include "model/flow/checkpoint/checkpoint.h"
 #include "model/motion/skeleton.h"
 #include "model/papers/networks/flow_config.h"
 #include "model/papers/networks/lstm_layer.h"
@@ -60,7 +60,7 @@ class InbetweenerImpl : public torch::nn::Module {
 };
 TORCH_MODULE(Inbetweener);
 
-/// Checkpoints of the baseline (see model/flow/checkpoint.h).
+/// Checkpoints of the baseline (see model/flow/checkpoint/checkpoint.h).
 using InbetweenerCheckpoint = CheckpointOf<Inbetweener>;
 bool HoldsInbetweener(const Safetensors& content);
 /// `name` is the file's name in errors. Throws what ParseCheckpoint throws.

@@ -1,6 +1,6 @@
 #include "model/papers/networks/key_condition.h"
 
-#include "model/flow/time_embedding.h"
+#include "model/flow/window/time_embedding.h"
 #include "model/motion/rotation.h"
 
 namespace choreo {

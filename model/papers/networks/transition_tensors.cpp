@@ -2,9 +2,9 @@
 
 #include <vector>
 
-#include "model/flow/time_embedding.h"
-#include "model/flow/torch_kinematics.h"
-#include "model/motion/pose_codec.h"
+#include "model/flow/network/torch_kinematics.h"
+#include "model/flow/window/time_embedding.h"
+#include "model/motion/pose/pose_codec.h"
 #include "model/motion/rotation.h"
 #include "model/papers/networks/key_condition.h"
 

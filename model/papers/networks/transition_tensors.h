@@ -29,7 +29,7 @@ struct TrajectoryTensors {
 TrajectoryTensors Interpolate(const TransitionTensors& transition);
 
 /// Decodes features [batch, N, width], which may be a network's output, to poses
-/// (motion/pose_codec.h). Differentiable.
+/// (motion/pose/pose_codec.h). Differentiable.
 TrajectoryTensors DecodePoses(const Skeleton& skeleton, const torch::Tensor& features);
 
 /// KeyConditions of each transition (key_condition.h), [batch, N, KeyConditionWidth], on the

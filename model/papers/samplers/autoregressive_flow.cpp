@@ -6,9 +6,9 @@
 #include <utility>
 #include <vector>
 
-#include "model/motion/contacts.h"
-#include "model/motion/kinematics.h"
-#include "model/motion/pose_codec.h"
+#include "model/motion/floor/contacts.h"
+#include "model/motion/kinematics/kinematics.h"
+#include "model/motion/pose/pose_codec.h"
 #include "model/papers/networks/key_condition.h"
 
 namespace choreo {

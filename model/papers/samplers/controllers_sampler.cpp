@@ -6,9 +6,9 @@
 #include <optional>
 #include <utility>
 
-#include "model/fit/position_fitter.h"
-#include "model/motion/contacts.h"
-#include "model/motion/facing_pose.h"
+#include "model/fit/solver/position_fitter.h"
+#include "model/motion/floor/contacts.h"
+#include "model/motion/pose/facing_pose.h"
 #include "model/motion/resample.h"
 #include "model/papers/samplers/dense_controls.h"
 

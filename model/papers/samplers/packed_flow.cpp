@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "model/core/error.h"
-#include "model/motion/pose_codec.h"
+#include "model/motion/pose/pose_codec.h"
 #include "model/papers/networks/key_condition.h"
 
 namespace choreo {

@@ -3,7 +3,7 @@
 #include <memory>
 
 #include "model/audio/signal/mfcc.h"
-#include "model/flow/torch_kernels.h"
+#include "model/flow/network/torch_kernels.h"
 #include "model/papers/networks/controllers_checkpoint.h"
 #include "model/papers/networks/flow_checkpoint.h"
 #include "model/papers/networks/inbetweener.h"

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "model/evaluation/beat_table.h"
-#include "model/evaluation/encoded_figures.h"
-#include "model/evaluation/long_plans.h"
-#include "model/evaluation/transition_judge.h"
+#include "model/evaluation/judges/encoded_figures.h"
+#include "model/evaluation/judges/long_plans.h"
+#include "model/evaluation/judges/transition_judge.h"
+#include "model/evaluation/tables/beat_table.h"
 #include "model/metrics/pose_distance.h"
-#include "model/motion/kinematics.h"
+#include "model/motion/kinematics/kinematics.h"
 
 namespace choreo {
 namespace {

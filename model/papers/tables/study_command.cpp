@@ -6,8 +6,8 @@
 
 #include "model/core/error.h"
 #include "model/core/limits.h"
-#include "model/evaluation/contest.h"
 #include "model/evaluation/eval_report.h"
+#include "model/evaluation/judges/contest.h"
 #include "model/papers/tables/study.h"
 #include "model/papers/tables/study_dances.h"
 

@@ -6,7 +6,7 @@
 #include "model/core/error.h"
 #include "model/core/progress.h"
 #include "model/draw/video.h"
-#include "model/evaluation/long_plans.h"
+#include "model/evaluation/judges/long_plans.h"
 
 namespace choreo {
 namespace {

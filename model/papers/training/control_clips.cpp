@@ -8,8 +8,8 @@
 #include <numbers>
 
 #include "model/core/quantile.h"
-#include "model/motion/facing_pose.h"
-#include "model/motion/mirror.h"
+#include "model/motion/kinematics/mirror.h"
+#include "model/motion/pose/facing_pose.h"
 #include "model/motion/resample.h"
 
 namespace choreo {

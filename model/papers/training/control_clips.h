@@ -4,11 +4,11 @@
 #include <vector>
 
 #include "model/core/random.h"
+#include "model/motion/controls/velocity_factors.h"
 #include "model/motion/skeleton.h"
-#include "model/motion/velocity_factors.h"
 #include "model/papers/networks/controlled_frames.h"
-#include "model/training/prepared_clip.h"
-#include "model/training/window_picker.h"
+#include "model/training/clips/prepared_clip.h"
+#include "model/training/windows/window_picker.h"
 
 namespace choreo {
 

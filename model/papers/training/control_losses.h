@@ -2,7 +2,7 @@
 
 #include "model/papers/networks/controllers_model.h"
 #include "model/papers/training/control_clips.h"
-#include "model/training/loss_terms.h"
+#include "model/training/trainer/loss_terms.h"
 
 namespace choreo {
 

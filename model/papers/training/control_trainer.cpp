@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "model/core/error.h"
-#include "model/motion/velocity_factors.h"
+#include "model/motion/controls/velocity_factors.h"
 #include "model/papers/networks/controllers_checkpoint.h"
 #include "model/papers/training/control_clips.h"
 #include "model/papers/training/control_losses.h"

@@ -2,10 +2,10 @@
 
 #include <torch/types.h>
 
-#include "model/flow/torch_kinematics.h"
+#include "model/flow/network/torch_kinematics.h"
 #include "model/papers/networks/frame_flow_model.h"
 #include "model/papers/training/motion_batch.h"
-#include "model/training/loss_terms.h"
+#include "model/training/trainer/loss_terms.h"
 
 /// Training losses of paper F's flow and the baseline.
 namespace choreo {

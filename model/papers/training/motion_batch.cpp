@@ -6,12 +6,12 @@
 #include <cmath>
 
 #include "model/audio/signal/mfcc.h"
-#include "model/flow/torch_kinematics.h"
-#include "model/motion/canonical.h"
-#include "model/motion/mirror.h"
-#include "model/motion/pose_codec.h"
+#include "model/flow/network/torch_kinematics.h"
+#include "model/motion/kinematics/canonical.h"
+#include "model/motion/kinematics/mirror.h"
+#include "model/motion/pose/pose_codec.h"
 #include "model/motion/resample.h"
-#include "model/training/window_picker.h"
+#include "model/training/windows/window_picker.h"
 
 namespace choreo {
 namespace {

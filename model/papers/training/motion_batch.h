@@ -5,7 +5,7 @@
 #include "model/core/random.h"
 #include "model/papers/networks/transition_tensors.h"
 #include "model/papers/training/paper_options.h"
-#include "model/training/prepared_clip.h"
+#include "model/training/clips/prepared_clip.h"
 
 namespace choreo {
 

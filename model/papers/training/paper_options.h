@@ -5,7 +5,7 @@
 
 #include "model/papers/networks/controllers_config.h"
 #include "model/papers/networks/flow_config.h"
-#include "model/training/trainer.h"
+#include "model/training/trainer/trainer.h"
 
 namespace choreo {
 

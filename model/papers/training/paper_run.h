@@ -1,7 +1,7 @@
 #pragma once
 
 #include "model/papers/training/paper_options.h"
-#include "model/training/training_run.h"
+#include "model/training/trainer/training_run.h"
 
 namespace choreo {
 

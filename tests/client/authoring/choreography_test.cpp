@@ -6,7 +6,7 @@
 #include <cmath>
 #include <set>
 
-#include "model/motion/kinematics.h"
+#include "model/motion/kinematics/kinematics.h"
 #include "tests/support/expect_error.h"
 
 namespace choreo::authoring::choreography_test {

@@ -9,7 +9,7 @@
 
 #include "client/authoring/keys/dance_keys.h"
 #include "client/authoring/keys/key_file.h"
-#include "model/motion/kinematics.h"
+#include "model/motion/kinematics/kinematics.h"
 #include "tests/support/expect_error.h"
 #include "tests/support/temporary_folder.h"
 

@@ -7,8 +7,8 @@
 
 #include "client/authoring/keys/key_file.h"
 #include "client/authoring/keys/pose_library.h"
-#include "model/motion/canonical.h"
-#include "model/motion/kinematics.h"
+#include "model/motion/kinematics/canonical.h"
+#include "model/motion/kinematics/kinematics.h"
 #include "tests/support/expect_error.h"
 
 namespace choreo::authoring::key_joints_test {

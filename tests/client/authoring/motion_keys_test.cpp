@@ -6,7 +6,7 @@
 
 #include "client/authoring/keys/key_file.h"
 #include "model/formats/motion_file.h"
-#include "model/motion/kinematics.h"
+#include "model/motion/kinematics/kinematics.h"
 #include "model/motion/resample.h"
 #include "tests/support/expect_error.h"
 #include "tests/support/temporary_folder.h"

@@ -8,7 +8,7 @@
 
 #include "client/authoring/keys/key_file.h"
 #include "model/formats/containers/npz.h"
-#include "model/motion/kinematics.h"
+#include "model/motion/kinematics/kinematics.h"
 #include "tests/support/expect_error.h"
 #include "tests/support/temporary_folder.h"
 

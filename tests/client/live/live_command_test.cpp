@@ -17,7 +17,7 @@
 #include "client/authoring/local_server.h"
 #include "client/choreo_client.h"
 #include "model/formats/motion_file.h"
-#include "model/motion/kinematics.h"
+#include "model/motion/kinematics/kinematics.h"
 #include "tests/client/command_fixture.h"
 #include "tests/client/live/osc_receiver.h"
 #include "tests/client/test_music.h"

@@ -14,7 +14,7 @@
 #include <thread>
 
 #include "client/authoring/keys/pose_library.h"
-#include "model/motion/kinematics.h"
+#include "model/motion/kinematics/kinematics.h"
 #include "tests/client/command_fixture.h"
 #include "tests/client/scripted_server.h"
 #include "tests/client/test_music.h"

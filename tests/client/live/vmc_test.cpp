@@ -13,7 +13,7 @@
 
 #include "client/authoring/keys/pose_library.h"
 #include "model/formats/motion_file.h"
-#include "model/motion/kinematics.h"
+#include "model/motion/kinematics/kinematics.h"
 #include "tests/client/command_fixture.h"
 #include "tests/client/live/osc_receiver.h"
 #include "tests/client/test_music.h"

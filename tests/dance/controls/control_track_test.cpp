@@ -5,7 +5,7 @@
 
 #include <limits>
 
-#include "model/motion/kinematics.h"
+#include "model/motion/kinematics/kinematics.h"
 #include "tests/support/expect_error.h"
 #include "tests/support/fake_sampler.h"
 

@@ -3,8 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "model/motion/body_limits.h"
-#include "model/motion/kinematics.h"
+#include "model/motion/kinematics/kinematics.h"
+#include "model/motion/pose/body_limits.h"
 
 namespace choreo::body_watch_test {
 

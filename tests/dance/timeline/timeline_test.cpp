@@ -7,7 +7,7 @@
 #include <random>
 
 #include "model/core/error.h"
-#include "model/motion/kinematics.h"
+#include "model/motion/kinematics/kinematics.h"
 
 namespace choreo::timeline_test {
 

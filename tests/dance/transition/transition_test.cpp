@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "model/core/error.h"
-#include "model/motion/body_limits.h"
+#include "model/motion/pose/body_limits.h"
 #include "model/plan/takes.h"
 #include "tests/dance/poses.h"
 #include "tests/support/expect_error.h"

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <random>
 
-#include "model/motion/kinematics.h"
+#include "model/motion/kinematics/kinematics.h"
 #include "model/motion/rotation.h"
 #include "tests/formats/numpy.h"
 #include "tests/motion/motion_fixtures.h"

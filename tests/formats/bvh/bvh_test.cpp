@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <set>
 
-#include "model/motion/kinematics.h"
+#include "model/motion/kinematics/kinematics.h"
 #include "model/motion/rotation.h"
 #include "tests/motion/motion_fixtures.h"
 #include "tests/support/expect_error.h"

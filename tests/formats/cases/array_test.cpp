@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "model/motion/floor_clearance.h"
+#include "model/motion/floor/floor_clearance.h"
 #include "tests/formats/cases/smpl_arrays.h"
 #include "tests/support/expect_error.h"
 #include "tests/support/pickles.h"

@@ -11,7 +11,7 @@
 #include "model/core/atomic_file.h"
 #include "model/formats/containers/npz.h"
 #include "model/formats/motion_file.h"
-#include "model/motion/kinematics.h"
+#include "model/motion/kinematics/kinematics.h"
 #include "model/motion/rotation.h"
 #include "tests/support/rig_files.h"
 #include "tests/support/temporary_folder.h"

@@ -2,8 +2,8 @@
 #include <string>
 #include <vector>
 
-#include "model/fit/find_bones.h"
-#include "model/motion/mirror.h"
+#include "model/fit/bones/find_bones.h"
+#include "model/motion/kinematics/mirror.h"
 #include "tests/formats/cases/cases.h"
 #include "tests/support/expect_error.h"
 

@@ -11,7 +11,7 @@
 
 #include "model/formats/bvh/bvh.h"
 #include "model/formats/gltf/gltf_scene.h"
-#include "model/motion/kinematics.h"
+#include "model/motion/kinematics/kinematics.h"
 #include "model/motion/rotation.h"
 #include "tests/motion/motion_fixtures.h"
 #include "tests/support/expect_error.h"

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
-#include "model/motion/kinematics.h"
+#include "model/motion/kinematics/kinematics.h"
 #include "model/papers/networks/controllers_checkpoint.h"
 #include "model/papers/training/control_clips.h"
 #include "model/papers/training/control_losses.h"

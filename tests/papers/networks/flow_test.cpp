@@ -9,7 +9,7 @@
 #include <numbers>
 
 #include "model/core/error.h"
-#include "model/flow/torch_kinematics.h"
+#include "model/flow/network/torch_kinematics.h"
 #include "model/motion/rotation.h"
 #include "model/papers/networks/frame_flow_model.h"
 #include "model/papers/networks/key_condition.h"

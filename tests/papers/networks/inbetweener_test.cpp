@@ -6,7 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "model/flow/torch_kinematics.h"
+#include "model/flow/network/torch_kinematics.h"
 #include "model/papers/networks/flow_checkpoint.h"
 #include "tests/support/expect_error.h"
 #include "tests/support/temporary_folder.h"

@@ -5,7 +5,7 @@
 
 #include "bench/random_checkpoints.h"
 #include "model/dance/transition/transition.h"
-#include "model/motion/kinematics.h"
+#include "model/motion/kinematics/kinematics.h"
 #include "model/samplers/samplers.h"
 #include "tests/samplers/sampled.h"
 #include "tests/support/temporary_folder.h"

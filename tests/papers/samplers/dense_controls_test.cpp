@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "model/motion/kinematics.h"
+#include "model/motion/kinematics/kinematics.h"
 
 namespace choreo::dense_controls_test {
 

@@ -6,10 +6,10 @@
 #include <utility>
 
 #include "model/core/random.h"
-#include "model/motion/contacts.h"
-#include "model/motion/pose_codec.h"
+#include "model/motion/floor/contacts.h"
+#include "model/motion/kinematics/velocity.h"
+#include "model/motion/pose/pose_codec.h"
 #include "model/motion/rotation.h"
-#include "model/motion/velocity.h"
 #include "model/papers/networks/flow_checkpoint.h"
 #include "model/samplers/samplers.h"
 #include "tests/samplers/sampled.h"

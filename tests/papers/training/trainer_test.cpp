@@ -11,7 +11,7 @@
 #include "model/papers/networks/flow_checkpoint.h"
 #include "model/papers/training/flow_losses.h"
 #include "model/papers/training/paper_options.h"
-#include "model/training/clip_split.h"
+#include "model/training/clips/clip_split.h"
 #include "tests/support/load_checkpoint.h"
 #include "tests/support/synthetic_clips.h"
 #include "tests/support/temporary_folder.h"

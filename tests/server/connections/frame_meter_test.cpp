@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "tests/server/http2.h"
+#include "tests/server/connections/http2.h"
 
 namespace choreo::frame_meter_test {
 

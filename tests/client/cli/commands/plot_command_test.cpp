@@ -5,8 +5,8 @@
 #include <fstream>
 
 #include "model/formats/motion_file.h"
-#include "model/motion/kinematics.h"
-#include "model/motion/path_curve.h"
+#include "model/motion/controls/path_curve.h"
+#include "model/motion/kinematics/kinematics.h"
 #include "tests/client/command_fixture.h"
 #include "tests/client/test_music.h"
 #include "tests/draw/decoded_png.h"

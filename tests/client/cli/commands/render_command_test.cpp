@@ -2,7 +2,7 @@
 
 #include "model/core/atomic_file.h"
 #include "model/formats/motion_file.h"
-#include "model/motion/kinematics.h"
+#include "model/motion/kinematics/kinematics.h"
 #include "tests/client/run_choreo.h"
 #include "tests/support/temporary_folder.h"
 

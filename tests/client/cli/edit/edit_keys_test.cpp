@@ -4,7 +4,7 @@
 #include <fstream>
 
 #include "model/core/atomic_file.h"
-#include "model/motion/canonical.h"
+#include "model/motion/kinematics/canonical.h"
 #include "tests/client/edit_fixture.h"
 
 /// Keys of a report that `choreo edit` moves, removes and keeps.

@@ -3,7 +3,7 @@
 
 #include "model/formats/bvh/bvh.h"
 #include "model/formats/motion_file.h"
-#include "model/motion/kinematics.h"
+#include "model/motion/kinematics/kinematics.h"
 #include "tests/client/command_fixture.h"
 
 namespace choreo::bvh_options_test {

@@ -8,7 +8,7 @@
 #include <thread>
 
 #include "model/formats/motion_file.h"
-#include "model/motion/kinematics.h"
+#include "model/motion/kinematics/kinematics.h"
 #include "tests/client/command_fixture.h"
 #include "tests/client/test_music.h"
 #include "tests/support/eventually.h"
