@@ -1,17 +1,17 @@
 // The page: bar, stage, poses, panels, timeline.
 import { effect, signal } from '@preact/signals';
 import { useEffect, useRef } from 'preact/hooks';
-import type { Pose } from './body';
-import { tempo } from './counts';
-import { Doll } from './doll';
-import { KeepTake } from './keep_take';
-import { Library } from './library';
-import { Panels } from './panels';
-import { PhotoCard } from './photo_card';
-import { Pictures } from './pictures';
-import { Stage } from './stage';
-import * as studio from './studio';
-import { Timeline } from './timeline';
+import type { Pose } from './project/body';
+import { tempo } from './project/counts';
+import { Doll } from './scene/doll';
+import { KeepTake } from './panels/keep_take';
+import { Library } from './panels/library';
+import { Panels } from './panels/panels';
+import { PhotoCard } from './panels/photo_card';
+import { Pictures } from './scene/pictures';
+import { Stage } from './scene/stage';
+import * as studio from './session/studio';
+import { Timeline } from './timeline/timeline';
 
 export const stage = signal<Stage | null>(null);
 export const pictures = signal<Pictures | null>(null);

@@ -1,8 +1,8 @@
 import { render } from 'preact';
 import { App, stage } from './app';
-import { Figure } from './body';
-import type { Pose } from './body';
-import * as studio from './studio';
+import { Figure } from './project/body';
+import type { Pose } from './project/body';
+import * as studio from './session/studio';
 
 /// The world position of a pose's joint, metres.
 const place = (pose: Pose, joint: string) =>
