@@ -13,7 +13,7 @@
 #include "bench/flow_probe.h"
 #include "bench/random_checkpoints.h"
 #include "model/core/grid.h"
-#include "model/core/threads.h"
+#include "model/core/running/threads.h"
 #include "model/engine/packed/kernels.h"
 #include "model/engine/packed/matrix.h"
 #include "model/flow/window/flow_tokens.h"

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "model/core/random.h"
-#include "model/core/safetensors.h"
+#include "model/core/files/safetensors.h"
+#include "model/core/numbers/random.h"
 #include "model/motion/skeleton_json.h"
 #include "model/papers/samplers/packed_flow.h"
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "model/core/error.h"
-#include "model/core/threads.h"
+#include "model/core/running/threads.h"
 #include "model/engine/sampling_cost.h"
 #include "model/samplers/samplers.h"
 #include "server/connections/listener.h"

@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "model/core/error.h"
-#include "model/core/printable.h"
+#include "model/core/text/printable.h"
 #include "model/messages/figures_path.h"
 #include "model/messages/style_figures.h"
 #include "network/pem.h"

@@ -5,7 +5,7 @@
 #include <exception>
 #include <utility>
 
-#include "model/core/printable.h"
+#include "model/core/text/printable.h"
 #include "server/process/service_manager.h"
 #include "server/settings/live_settings.h"
 

@@ -17,10 +17,10 @@
 #include <set>
 #include <thread>
 
-#include "model/core/counted.h"
 #include "model/core/error.h"
 #include "model/core/limits.h"
-#include "model/core/threads.h"
+#include "model/core/running/threads.h"
+#include "model/core/text/counted.h"
 #include "network/protocol.h"
 #include "server/accept_guard.h"
 #include "server/calls/service.h"

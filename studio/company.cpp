@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "client/authoring/project/formation.h"
-#include "model/core/atomic_file.h"
+#include "model/core/files/atomic_file.h"
 #include "model/formats/gltf/gltf.h"
 #include "model/formats/motion_file.h"
 #include "studio/from_page.h"

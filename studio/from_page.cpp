@@ -5,7 +5,7 @@
 
 #include "client/convert.h"
 #include "model/audio/signal/format.h"
-#include "model/core/field.h"
+#include "model/core/text/field.h"
 #include "model/formats/arrays/own_arrays.h"
 #include "model/motion/pose/pose_limits.h"
 #include "proto/wire/poses.h"

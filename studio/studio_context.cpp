@@ -8,7 +8,7 @@
 #include "client/convert.h"
 #include "client/describe_styles.h"
 #include "model/audio/beats/beat_hint.h"
-#include "model/core/atomic_file.h"
+#include "model/core/files/atomic_file.h"
 #include "model/core/hit.h"
 #include "model/core/limits.h"
 #include "model/formats/motion_file.h"

@@ -9,8 +9,8 @@
 
 #include "client/live/music_ear.h"
 #include "model/core/error.h"
-#include "model/core/printable.h"
 #include "model/core/rounded.h"
+#include "model/core/text/printable.h"
 
 namespace choreo::live {
 namespace {

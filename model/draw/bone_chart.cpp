@@ -5,7 +5,7 @@
 #include <array>
 
 #include "model/core/error.h"
-#include "model/core/printable.h"
+#include "model/core/text/printable.h"
 #include "model/draw/canvas.h"
 
 namespace choreo {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cstring>
 
-#include "model/core/atomic_file.h"
 #include "model/core/error.h"
+#include "model/core/files/atomic_file.h"
 
 namespace choreo {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "model/core/smooth_step.h"
+#include "model/core/numbers/smooth_step.h"
 
 namespace choreo {
 namespace {

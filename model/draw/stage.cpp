@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "model/core/error.h"
-#include "model/core/gaussian_mean.h"
 #include "model/core/joined.h"
+#include "model/core/numbers/gaussian_mean.h"
 #include "model/motion/rotation.h"
 
 namespace choreo {

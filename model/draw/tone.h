@@ -8,7 +8,7 @@
 
 #include "model/body/colour.h"
 #include "model/body/lanes.h"
-#include "model/core/smooth_step.h"
+#include "model/core/numbers/smooth_step.h"
 
 namespace choreo {
 

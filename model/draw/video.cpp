@@ -6,8 +6,8 @@
 #include <future>
 
 #include "model/core/error.h"
-#include "model/core/gaussian_mean.h"
-#include "model/core/threads.h"
+#include "model/core/numbers/gaussian_mean.h"
+#include "model/core/running/threads.h"
 #include "model/draw/render.h"
 #include "model/draw/yuv420.h"
 #include "model/motion/resample.h"

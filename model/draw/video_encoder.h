@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <span>
 
-#include "model/core/atomic_file.h"
+#include "model/core/files/atomic_file.h"
 #include "model/core/grid.h"
 
 namespace choreo {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "model/core/error.h"
-#include "model/core/math_library.h"
+#include "model/core/numbers/math_library.h"
 #include "model/engine/packed/matrix.h"
 
 namespace choreo {

@@ -13,7 +13,7 @@
 #include <thread>
 #include <utility>
 
-#include "model/core/threads.h"
+#include "model/core/running/threads.h"
 #include "model/engine/sampling_cost.h"
 
 namespace choreo {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "model/core/error.h"
-#include "model/core/histogram.h"
+#include "model/core/numbers/histogram.h"
 #include "model/plan/sampler.h"
 
 namespace choreo {

@@ -5,8 +5,8 @@
 #include <cstring>
 #include <fstream>
 
-#include "model/core/atomic_file.h"
 #include "model/core/error.h"
+#include "model/core/files/atomic_file.h"
 
 namespace choreo {
 

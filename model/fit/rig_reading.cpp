@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "model/core/error.h"
-#include "model/core/quantile.h"
+#include "model/core/numbers/quantile.h"
 #include "model/motion/kinematics/kinematics.h"
 #include "model/motion/rotation.h"
 #include "model/motion/skeleton.h"

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "model/core/slices.h"
+#include "model/core/running/slices.h"
 #include "model/flow/window/flow_model.h"
 
 namespace choreo {

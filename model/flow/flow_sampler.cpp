@@ -8,7 +8,7 @@
 
 #include "model/core/grid.h"
 #include "model/core/limits.h"
-#include "model/core/random.h"
+#include "model/core/numbers/random.h"
 #include "model/flow/flow_field.h"
 #include "model/flow/window/window_energy.h"
 #include "model/flow/window/window_features.h"

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "model/core/slices.h"
+#include "model/core/running/slices.h"
 #include "model/flow/window/flow_model.h"
 #include "model/flow/window/flow_window.h"
 #include "model/plan/sampler.h"

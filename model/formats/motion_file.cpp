@@ -6,10 +6,10 @@
 #include <new>
 #include <utility>
 
-#include "model/core/atomic_file.h"
 #include "model/core/error.h"
+#include "model/core/files/atomic_file.h"
+#include "model/core/files/npy.h"
 #include "model/core/grid.h"
-#include "model/core/npy.h"
 #include "model/fit/retarget.h"
 #include "model/formats/arrays/amass_npz.h"
 #include "model/formats/arrays/frame_rows.h"

@@ -10,8 +10,8 @@
 
 #include "model/core/error.h"
 #include "model/core/limits.h"
-#include "model/core/progress.h"
 #include "model/core/rounded.h"
+#include "model/core/running/progress.h"
 #include "model/engine/engine_choice.h"
 #include "model/evaluation/eval_report.h"
 #include "model/evaluation/judges/contest.h"

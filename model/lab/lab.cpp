@@ -6,7 +6,7 @@
 
 #include "model/core/error.h"
 #include "model/core/programs.h"
-#include "model/core/threads.h"
+#include "model/core/running/threads.h"
 #include "model/evaluation/tables/weigh_command.h"
 #include "model/lab/eval_command.h"
 #include "model/lab/train_command.h"

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "model/core/error.h"
-#include "model/core/quantile.h"
+#include "model/core/numbers/quantile.h"
 
 namespace choreo {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "model/core/random.h"
+#include "model/core/numbers/random.h"
 
 namespace choreo {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "model/core/random.h"
+#include "model/core/numbers/random.h"
 #include "model/metrics/linear.h"
 #include "model/metrics/speed_spectrum.h"
 

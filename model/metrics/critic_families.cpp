@@ -6,7 +6,7 @@
 #include <initializer_list>
 #include <span>
 
-#include "model/core/quantile.h"
+#include "model/core/numbers/quantile.h"
 #include "model/metrics/balance.h"
 #include "model/metrics/speed_spectrum.h"
 

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "model/core/quantile.h"
+#include "model/core/numbers/quantile.h"
 #include "model/motion/motion.h"
 #include "model/motion/skeleton.h"
 

@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "model/core/error.h"
-#include "model/core/json_limits.h"
+#include "model/core/files/json_limits.h"
 
 namespace choreo {
 namespace {

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "model/core/smooth_step.h"
+#include "model/core/numbers/smooth_step.h"
 #include "model/motion/floor/floor_clearance.h"
 #include "model/motion/floor/support.h"
 #include "model/motion/kinematics/kinematics.h"

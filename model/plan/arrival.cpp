@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "model/core/smooth_step.h"
+#include "model/core/numbers/smooth_step.h"
 #include "model/motion/rotation.h"
 
 namespace choreo {

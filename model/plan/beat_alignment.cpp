@@ -4,7 +4,7 @@
 #include <limits>
 #include <vector>
 
-#include "model/core/each_cpu.h"
+#include "model/core/running/each_cpu.h"
 #include "model/motion/kinematics/kinematic_beats.h"
 #include "model/motion/kinematics/kinematics.h"
 #include "model/motion/pose/body_limits.h"

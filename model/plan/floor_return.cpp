@@ -2,7 +2,7 @@
 #include <cmath>
 #include <limits>
 
-#include "model/core/smooth_step.h"
+#include "model/core/numbers/smooth_step.h"
 #include "model/motion/kinematics/kinematics.h"
 #include "model/plan/plan_stages.h"
 

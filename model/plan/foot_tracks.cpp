@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "model/core/gaussian_mean.h"
+#include "model/core/numbers/gaussian_mean.h"
 #include "model/motion/floor/contacts.h"
 #include "model/motion/floor/floor_clearance.h"
 #include "model/motion/floor/support.h"

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "model/core/smooth_step.h"
+#include "model/core/numbers/smooth_step.h"
 #include "model/motion/floor/contacts.h"
 #include "model/motion/floor/support.h"
 #include "model/motion/kinematics/body_mass.h"

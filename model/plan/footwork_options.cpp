@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "model/core/error.h"
-#include "model/core/json_struct.h"
+#include "model/core/files/json_struct.h"
 
 namespace choreo {
 

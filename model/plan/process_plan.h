@@ -1,6 +1,6 @@
 #pragma once
 
-#include "model/core/slices.h"
+#include "model/core/running/slices.h"
 #include "model/motion/kinematics/kinematics.h"
 #include "model/plan/sampler.h"
 

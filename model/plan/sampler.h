@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "model/core/slices.h"
+#include "model/core/running/slices.h"
 #include "model/motion/floor/contacts.h"
 #include "model/plan/transition_spec.h"
 

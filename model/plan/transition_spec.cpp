@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "model/core/error.h"
-#include "model/core/nearest.h"
 #include "model/core/range.h"
+#include "model/core/text/nearest.h"
 #include "model/motion/pose/pose_limits.h"
 
 namespace choreo {

@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "model/core/error.h"
-#include "model/core/printable.h"
-#include "model/core/threads.h"
+#include "model/core/running/threads.h"
+#include "model/core/text/printable.h"
 #include "model/engine/loading.h"
 #include "model/engine/packed/packed_flow_network.h"
 #include "model/flow/checkpoint/style_figures_file.h"

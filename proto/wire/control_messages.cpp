@@ -1,7 +1,7 @@
 #include "proto/wire/control_messages.h"
 
 #include "model/core/error.h"
-#include "model/core/field.h"
+#include "model/core/text/field.h"
 #include "model/motion/controls/controls.h"
 #include "model/motion/controls/velocity_factors.h"
 

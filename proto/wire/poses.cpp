@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "model/core/error.h"
-#include "model/core/field.h"
+#include "model/core/text/field.h"
 #include "model/motion/rotation.h"
 #include "proto/wire/convert.h"
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "model/core/counted.h"
+#include "model/core/text/counted.h"
 #include "server/messages/refusal.h"
 
 namespace choreo {

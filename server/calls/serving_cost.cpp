@@ -7,8 +7,8 @@
 
 #include "model/core/grid.h"
 #include "model/core/limits.h"
-#include "model/core/random.h"
-#include "model/core/threads.h"
+#include "model/core/numbers/random.h"
+#include "model/core/running/threads.h"
 #include "model/dance/input/audio_feed.h"
 #include "model/dance/input/dance_music.h"
 

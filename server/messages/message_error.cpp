@@ -4,7 +4,7 @@
 #include <string_view>
 #include <utility>
 
-#include "model/core/field.h"
+#include "model/core/text/field.h"
 
 namespace choreo {
 namespace {

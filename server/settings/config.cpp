@@ -14,8 +14,8 @@
 
 #include "model/core/error.h"
 #include "model/core/joined.h"
-#include "model/core/nearest.h"
 #include "model/core/programs.h"
+#include "model/core/text/nearest.h"
 #include "model/engine/engine_choice.h"
 #include "model/plan/transition_spec.h"
 #include "network/address.h"

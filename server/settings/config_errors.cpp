@@ -7,9 +7,9 @@
 #include <string_view>
 
 #include "model/core/error.h"
-#include "model/core/nearest.h"
 #include "model/core/rounded.h"
-#include "model/core/threads.h"
+#include "model/core/running/threads.h"
+#include "model/core/text/nearest.h"
 #include "server/messages/music_file.h"
 
 namespace choreo {

@@ -11,8 +11,8 @@
 #include <sstream>
 #include <utility>
 
-#include "model/core/counted.h"
 #include "model/core/joined.h"
+#include "model/core/text/counted.h"
 #include "network/pem.h"
 #include "server/messages/status.h"
 

@@ -10,7 +10,7 @@
 #include <string>
 #include <utility>
 
-#include "model/core/histogram.h"
+#include "model/core/numbers/histogram.h"
 #include "server/messages/refusal.h"
 #include "server/telemetry/log.h"
 

@@ -359,6 +359,7 @@ TEST(Architecture, TheBuildsIdentityFollowsEverySourceThatDances) {
 TEST(Architecture, RoomsOfAModuleIncludeLowerOnesAlone) {
   const std::vector<std::pair<std::string, std::vector<std::string>>> modules = {
       {"model/audio/", {"signal", "decode", "beats", "music"}},
+      {"model/core/", {"", "numbers", "text", "files", "running"}},
       {"model/motion/", {"", "kinematics", "floor", "pose", "controls"}},
       {"model/fit/", {"bones", "sources", "solver", ""}},
       {"model/flow/", {"priors", "window", "checkpoint", "network", ""}},
@@ -450,7 +451,7 @@ TEST(Architecture, WhatServersSayNamesNoOptions) {
 TEST(Architecture, WhatTheModelSaysNamesNoMembers) {
   const std::regex name_in_a_text(R"(^(?=.* ).*(\b[A-Za-z]+_\w|[A-Z]\w*::\w|\bconfig\.))");
   // NumPy's header, and a mistake of our own code.
-  ExpectUnsaid(name_in_a_text, {"model/core/npy.cpp", "model/core/random.cpp"});
+  ExpectUnsaid(name_in_a_text, {"model/core/files/npy.cpp", "model/core/numbers/random.cpp"});
 }
 
 // The files that a recipe of docs/extending.md has in its table.

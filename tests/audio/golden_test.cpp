@@ -16,7 +16,7 @@
 #include "model/audio/decode/decode.h"
 #include "model/audio/music/feature_stream.h"
 #include "model/audio/signal/mfcc.h"
-#include "model/core/npy.h"
+#include "model/core/files/npy.h"
 
 namespace choreo::golden_test {
 

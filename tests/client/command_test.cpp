@@ -11,8 +11,8 @@
 
 #include "client/authoring/keys/key_file.h"
 #include "client/authoring/keys/pose_library.h"
-#include "model/core/atomic_file.h"
-#include "model/core/npy.h"
+#include "model/core/files/atomic_file.h"
+#include "model/core/files/npy.h"
 #include "model/formats/motion_file.h"
 #include "model/motion/kinematics/kinematics.h"
 #include "tests/client/command_fixture.h"

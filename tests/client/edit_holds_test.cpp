@@ -4,7 +4,7 @@
 #include <fstream>
 
 #include "client/authoring/keys/pose_library.h"
-#include "model/core/atomic_file.h"
+#include "model/core/files/atomic_file.h"
 #include "tests/client/edit_fixture.h"
 
 /// Holds, hands and hits of keys that `choreo edit` sets and keeps.

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "client/authoring/music/decode_song.h"
-#include "model/core/atomic_file.h"
 #include "model/core/error.h"
+#include "model/core/files/atomic_file.h"
 #include "tests/support/expect_error.h"
 #include "tests/support/shell.h"
 #include "tests/support/temporary_folder.h"

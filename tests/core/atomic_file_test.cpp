@@ -1,4 +1,4 @@
-#include "model/core/atomic_file.h"
+#include "model/core/files/atomic_file.h"
 
 #include <gtest/gtest.h>
 
@@ -6,8 +6,8 @@
 #include <iterator>
 #include <string>
 
-#include "model/core/npy.h"
-#include "model/core/safetensors.h"
+#include "model/core/files/npy.h"
+#include "model/core/files/safetensors.h"
 #include "tests/support/expect_error.h"
 #include "tests/support/full_disk.h"
 #include "tests/support/temporary_folder.h"

@@ -1,4 +1,4 @@
-#include "model/core/json_limits.h"
+#include "model/core/files/json_limits.h"
 
 #include <gtest/gtest.h>
 

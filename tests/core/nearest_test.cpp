@@ -1,4 +1,4 @@
-#include "model/core/nearest.h"
+#include "model/core/text/nearest.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "model/core/npy.h"
+#include "model/core/files/npy.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "model/core/printable.h"
+#include "model/core/text/printable.h"
 
 #include <gtest/gtest.h>
 

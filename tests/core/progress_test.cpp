@@ -1,4 +1,4 @@
-#include "model/core/progress.h"
+#include "model/core/running/progress.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

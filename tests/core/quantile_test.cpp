@@ -1,4 +1,4 @@
-#include "model/core/quantile.h"
+#include "model/core/numbers/quantile.h"
 
 #include <gmock/gmock.h>
 

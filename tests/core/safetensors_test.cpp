@@ -1,4 +1,4 @@
-#include "model/core/safetensors.h"
+#include "model/core/files/safetensors.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "model/core/slices.h"
+#include "model/core/running/slices.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

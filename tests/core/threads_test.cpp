@@ -1,4 +1,4 @@
-#include "model/core/threads.h"
+#include "model/core/running/threads.h"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "model/core/atomic_file.h"
+#include "model/core/files/atomic_file.h"
 #include "tests/draw/decoded_png.h"
 #include "tests/motion/motion_fixtures.h"
 #include "tests/support/expect_error.h"

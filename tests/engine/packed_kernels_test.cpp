@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "model/core/random.h"
+#include "model/core/numbers/random.h"
 #include "model/engine/packed/kernels.h"
 #include "model/engine/packed/matrix.h"
 

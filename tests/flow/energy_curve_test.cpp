@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "model/core/random.h"
+#include "model/core/numbers/random.h"
 
 namespace choreo::energy_curve_test {
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <utility>
 
-#include "model/core/atomic_file.h"
-#include "model/core/safetensors.h"
+#include "model/core/files/atomic_file.h"
+#include "model/core/files/safetensors.h"
 #include "tests/support/expect_error.h"
 #include "tests/support/temporary_folder.h"
 

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 #include <torch/types.h>
 
-#include "model/core/random.h"
+#include "model/core/numbers/random.h"
 #include "model/motion/kinematics/kinematics.h"
 #include "model/motion/rotation.h"
 

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "model/core/random.h"
+#include "model/core/numbers/random.h"
 #include "tests/flow/turn_scene.h"
 
 namespace choreo::turn_prior_test {

@@ -4,7 +4,7 @@
 
 #include <fstream>
 
-#include "model/core/atomic_file.h"
+#include "model/core/files/atomic_file.h"
 #include "model/formats/bvh/bvh.h"
 #include "model/formats/containers/npz.h"
 #include "model/motion/kinematics/kinematics.h"

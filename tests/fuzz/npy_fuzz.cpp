@@ -1,4 +1,4 @@
-#include "model/core/npy.h"
+#include "model/core/files/npy.h"
 #include "tests/fuzz/fuzz.h"
 
 FUZZ_TARGET(npy) {

@@ -1,4 +1,4 @@
-#include "model/core/safetensors.h"
+#include "model/core/files/safetensors.h"
 #include "tests/fuzz/fuzz.h"
 #include "tests/fuzz/input_file.h"
 

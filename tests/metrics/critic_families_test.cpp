@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "model/core/random.h"
+#include "model/core/numbers/random.h"
 #include "tests/metrics/moving_body.h"
 #include "tests/support/expect_error.h"
 

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "model/core/random.h"
+#include "model/core/numbers/random.h"
 #include "tests/metrics/moving_body.h"
 
 namespace choreo::critic_test {

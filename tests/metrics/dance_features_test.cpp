@@ -4,7 +4,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
-#include "model/core/random.h"
+#include "model/core/numbers/random.h"
 #include "model/metrics/frechet.h"
 #include "model/metrics/motion_features.h"
 #include "model/motion/kinematics/kinematics.h"

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "model/audio/signal/mfcc.h"
-#include "model/core/random.h"
+#include "model/core/numbers/random.h"
 
 namespace choreo::song_beats_test {
 

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "model/core/random.h"
+#include "model/core/numbers/random.h"
 #include "tests/metrics/moving_body.h"
 #include "tests/support/expect_error.h"
 

@@ -5,7 +5,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
-#include "model/core/random.h"
+#include "model/core/numbers/random.h"
 #include "model/motion/kinematics/kinematics.h"
 
 namespace choreo::leg_test {

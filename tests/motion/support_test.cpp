@@ -5,7 +5,7 @@
 #include <cmath>
 #include <functional>
 
-#include "model/core/random.h"
+#include "model/core/numbers/random.h"
 #include "model/motion/kinematics/body_mass.h"
 #include "model/motion/kinematics/kinematics.h"
 #include "model/motion/rotation.h"

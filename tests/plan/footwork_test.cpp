@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "model/core/random.h"
-#include "model/core/smooth_step.h"
+#include "model/core/numbers/random.h"
+#include "model/core/numbers/smooth_step.h"
 #include "model/motion/kinematics/body_mass.h"
 #include "model/motion/kinematics/canonical.h"
 #include "model/motion/kinematics/kinematics.h"

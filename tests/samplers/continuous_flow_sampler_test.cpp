@@ -3,7 +3,7 @@
 
 #include "bench/random_checkpoints.h"
 #include "model/core/error.h"
-#include "model/core/safetensors.h"
+#include "model/core/files/safetensors.h"
 #include "model/dance/transition/transition.h"
 #include "model/engine/packed/kernels.h"
 #include "model/flow/flow_sampler.h"

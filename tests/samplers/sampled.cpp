@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "bench/random_checkpoints.h"
-#include "model/core/random.h"
+#include "model/core/numbers/random.h"
 #include "model/motion/kinematics/kinematics.h"
 
 namespace choreo {

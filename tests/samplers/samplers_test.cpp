@@ -8,9 +8,9 @@
 #include <tuple>
 
 #include "model/core/error.h"
-#include "model/core/math_library.h"
-#include "model/core/safetensors.h"
-#include "model/core/threads.h"
+#include "model/core/files/safetensors.h"
+#include "model/core/numbers/math_library.h"
+#include "model/core/running/threads.h"
 #include "model/engine/loading.h"
 #include "tests/samplers/sampled.h"
 

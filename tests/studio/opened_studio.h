@@ -8,7 +8,7 @@
 #include <thread>
 #include <vector>
 
-#include "model/core/atomic_file.h"
+#include "model/core/files/atomic_file.h"
 #include "model/motion/kinematics/kinematics.h"
 #include "proto/wire/convert.h"
 #include "studio/web_server.h"

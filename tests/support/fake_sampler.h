@@ -10,7 +10,7 @@
 
 #include "model/audio/signal/mfcc.h"
 #include "model/core/error.h"
-#include "model/core/random.h"
+#include "model/core/numbers/random.h"
 #include "model/motion/controls/velocity_factors.h"
 #include "model/plan/sampler.h"
 

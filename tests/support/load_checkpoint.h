@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "model/core/safetensors.h"
+#include "model/core/files/safetensors.h"
 #include "model/papers/networks/flow_checkpoint.h"
 
 namespace choreo {

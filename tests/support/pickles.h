@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "model/core/npy.h"
+#include "model/core/files/npy.h"
 
 namespace choreo {
 

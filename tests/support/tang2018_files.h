@@ -4,7 +4,7 @@
 #include <variant>
 #include <vector>
 
-#include "model/core/npy.h"
+#include "model/core/files/npy.h"
 #include "model/fit/sources/position_clip.h"
 
 namespace choreo {

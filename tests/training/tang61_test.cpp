@@ -5,7 +5,7 @@
 #include <string>
 
 #include "model/core/error.h"
-#include "model/core/npy.h"
+#include "model/core/files/npy.h"
 #include "model/motion/kinematics/kinematics.h"
 #include "model/motion/resample.h"
 #include "model/training/prepare/beat_grid.h"

@@ -10,7 +10,7 @@
 #include <cmath>
 
 #include "model/core/error.h"
-#include "model/core/safetensors.h"
+#include "model/core/files/safetensors.h"
 #include "model/training/flow_matching/flow_training.h"
 #include "model/training/trainer/adam.h"
 #include "tests/support/synthetic_clips.h"

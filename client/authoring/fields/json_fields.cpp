@@ -10,8 +10,8 @@
 #include <sstream>
 
 #include "model/core/error.h"
+#include "model/core/files/json_limits.h"
 #include "model/core/hit.h"
-#include "model/core/json_limits.h"
 #include "model/core/rounded.h"
 
 namespace choreo::authoring {

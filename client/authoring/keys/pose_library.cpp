@@ -5,7 +5,7 @@
 #include "client/authoring/keys/pose_file.h"
 #include "client/authoring/keys/pose_sources.h"
 #include "model/core/error.h"
-#include "model/core/nearest.h"
+#include "model/core/text/nearest.h"
 #include "model/fit/retarget.h"
 
 namespace choreo::authoring {

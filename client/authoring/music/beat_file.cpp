@@ -8,8 +8,8 @@
 #include "model/audio/beats/onset.h"
 #include "model/audio/signal/format.h"
 #include "model/core/error.h"
-#include "model/core/printable.h"
 #include "model/core/rounded.h"
+#include "model/core/text/printable.h"
 
 namespace choreo::authoring {
 namespace {

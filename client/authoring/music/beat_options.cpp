@@ -10,8 +10,8 @@
 #include "model/audio/beats/same_tempo.h"
 #include "model/audio/signal/format.h"
 #include "model/core/error.h"
-#include "model/core/field.h"
 #include "model/core/rounded.h"
+#include "model/core/text/field.h"
 
 namespace choreo::authoring {
 namespace {

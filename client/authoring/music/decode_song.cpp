@@ -13,7 +13,7 @@
 
 #include "client/authoring/notes/notes.h"
 #include "model/core/error.h"
-#include "model/core/printable.h"
+#include "model/core/text/printable.h"
 
 namespace choreo::authoring {
 namespace {

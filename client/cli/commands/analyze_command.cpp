@@ -13,11 +13,11 @@
 #include "client/cli/options/options.h"
 #include "client/cli/options/output_file.h"
 #include "model/audio/signal/mfcc.h"
-#include "model/core/counted.h"
 #include "model/core/error.h"
+#include "model/core/files/npy.h"
 #include "model/core/grid.h"
-#include "model/core/npy.h"
 #include "model/core/rounded.h"
+#include "model/core/text/counted.h"
 
 namespace choreo::cli {
 namespace {

@@ -17,7 +17,7 @@
 #include "client/cli/options/options.h"
 #include "client/cli/options/output_file.h"
 #include "client/cli/report/report.h"
-#include "model/core/atomic_file.h"
+#include "model/core/files/atomic_file.h"
 #include "model/core/limits.h"
 #include "model/formats/motion_file.h"
 

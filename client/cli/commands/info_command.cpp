@@ -9,7 +9,7 @@
 #include "client/cli/commands/commands.h"
 #include "client/cli/options/connection.h"
 #include "client/describe_styles.h"
-#include "model/core/counted.h"
+#include "model/core/text/counted.h"
 #include "model/motion/controls/controls.h"
 
 namespace choreo::cli {

@@ -23,7 +23,7 @@
 #include "client/live/live_dance.h"
 #include "client/live/midi_clock.h"
 #include "client/live/vmc.h"
-#include "model/core/atomic_file.h"
+#include "model/core/files/atomic_file.h"
 #include "model/core/limits.h"
 #include "model/core/rounded.h"
 #include "model/formats/motion_file.h"

@@ -15,7 +15,7 @@
 #include "client/cli/options/output_file.h"
 #include "client/cli/report/report.h"
 #include "client/edit.h"
-#include "model/core/atomic_file.h"
+#include "model/core/files/atomic_file.h"
 #include "model/core/grid.h"
 #include "model/core/limits.h"
 #include "model/core/rounded.h"

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "client/choreo_client.h"
-#include "model/core/progress.h"
+#include "model/core/running/progress.h"
 
 namespace choreo::cli {
 

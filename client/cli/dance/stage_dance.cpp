@@ -12,7 +12,7 @@
 #include "client/authoring/project/formation.h"
 #include "client/cli/report/report.h"
 #include "client/cli/report/report_controls.h"
-#include "model/core/atomic_file.h"
+#include "model/core/files/atomic_file.h"
 #include "model/core/joined.h"
 #include "model/core/rounded.h"
 #include "model/formats/gltf/gltf.h"

@@ -9,11 +9,11 @@
 #include "client/authoring/fields/json_fields.h"
 #include "client/authoring/music/music.h"
 #include "client/authoring/project/project_file.h"
-#include "model/core/atomic_file.h"
 #include "model/core/error.h"
+#include "model/core/files/atomic_file.h"
 #include "model/core/grid.h"
-#include "model/core/nearest.h"
 #include "model/core/rounded.h"
+#include "model/core/text/nearest.h"
 #include "model/formats/motion_file.h"
 
 namespace choreo::cli {

@@ -11,7 +11,7 @@
 #include "client/cli/options/options.h"
 #include "client/cli/report/report.h"
 #include "client/cli/report/report_controls.h"
-#include "model/core/atomic_file.h"
+#include "model/core/files/atomic_file.h"
 #include "model/core/joined.h"
 #include "model/core/rounded.h"
 #include "model/motion/controls/controls.h"

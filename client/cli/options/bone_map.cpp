@@ -5,9 +5,9 @@
 #include <nlohmann/json.hpp>
 
 #include "client/authoring/fields/json_fields.h"
-#include "model/core/atomic_file.h"
 #include "model/core/error.h"
-#include "model/core/printable.h"
+#include "model/core/files/atomic_file.h"
+#include "model/core/text/printable.h"
 #include "model/draw/bone_chart.h"
 #include "model/fit/bones/character_body.h"
 #include "model/fit/bones/guess_bones.h"

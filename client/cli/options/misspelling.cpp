@@ -1,6 +1,6 @@
 #include "client/cli/options/misspelling.h"
 
-#include "model/core/nearest.h"
+#include "model/core/text/nearest.h"
 
 namespace choreo::cli {
 namespace {

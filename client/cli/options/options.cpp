@@ -13,9 +13,9 @@
 #include "model/core/hand_pose.h"
 #include "model/core/hit.h"
 #include "model/core/limits.h"
-#include "model/core/nearest.h"
 #include "model/core/range.h"
 #include "model/core/rounded.h"
+#include "model/core/text/nearest.h"
 #include "model/motion/controls/controls.h"
 #include "model/motion/pose/pose_faults.h"
 

@@ -6,8 +6,8 @@
 #include <fstream>
 #include <functional>
 
-#include "model/core/atomic_file.h"
 #include "model/core/error.h"
+#include "model/core/files/atomic_file.h"
 #include "model/core/joined.h"
 #include "model/formats/motion_file.h"
 

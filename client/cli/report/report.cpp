@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include "client/authoring/notes/notes.h"
-#include "model/core/counted.h"
 #include "model/core/joined.h"
+#include "model/core/text/counted.h"
 
 namespace choreo::cli {
 namespace {

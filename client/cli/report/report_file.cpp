@@ -15,9 +15,9 @@
 #include "client/cli/report/report_controls.h"
 #include "client/cli/report/time_format.h"
 #include "model/core/error.h"
-#include "model/core/json_limits.h"
-#include "model/core/nearest.h"
+#include "model/core/files/json_limits.h"
 #include "model/core/rounded.h"
+#include "model/core/text/nearest.h"
 
 namespace choreo::cli {
 namespace {

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "model/audio/signal/format.h"
-#include "model/core/each_cpu.h"
+#include "model/core/running/each_cpu.h"
 
 namespace choreo {
 namespace {

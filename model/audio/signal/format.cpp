@@ -5,8 +5,8 @@
 #include <cstddef>
 
 #include "model/core/error.h"
-#include "model/core/field.h"
 #include "model/core/rounded.h"
+#include "model/core/text/field.h"
 
 namespace choreo {
 

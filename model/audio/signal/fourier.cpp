@@ -5,7 +5,7 @@
 #include <functional>
 #include <numbers>
 
-#include "model/core/each_cpu.h"
+#include "model/core/running/each_cpu.h"
 
 namespace choreo {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "model/core/smooth_step.h"
+#include "model/core/numbers/smooth_step.h"
 #include "model/plan/plan_stages.h"
 
 namespace choreo {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "model/audio/beats/beats.h"
-#include "model/core/quantile.h"
+#include "model/core/numbers/quantile.h"
 #include "model/dance/input/dance_music.h"
 
 namespace choreo {

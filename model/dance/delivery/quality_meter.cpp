@@ -7,7 +7,7 @@
 
 #include "model/audio/beats/beats.h"
 #include "model/core/error.h"
-#include "model/core/quantile.h"
+#include "model/core/numbers/quantile.h"
 #include "model/motion/kinematics/kinematic_beats.h"
 #include "model/motion/kinematics/kinematics.h"
 

@@ -5,8 +5,8 @@
 #include <span>
 #include <string>
 
-#include "model/core/field.h"
 #include "model/core/limits.h"
+#include "model/core/text/field.h"
 #include "model/dance/timeline/spec_poses.h"
 #include "model/messages/continuation.h"
 #include "model/motion/motion.h"

@@ -8,7 +8,7 @@
 #include <new>
 #include <vector>
 
-#include "model/core/random.h"
+#include "model/core/numbers/random.h"
 
 namespace choreo {
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <utility>
 
-#include "model/core/safetensors.h"
+#include "model/core/files/safetensors.h"
 #include "model/engine/packed/kernels.h"
 
 namespace choreo {

@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "model/core/safetensors.h"
+#include "model/core/files/safetensors.h"
 #include "model/engine/packed/kernels.h"
 #include "model/engine/packed/matrix.h"
 #include "model/flow/window/flow_model.h"

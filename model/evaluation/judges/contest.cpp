@@ -5,7 +5,7 @@
 #include <set>
 
 #include "model/core/error.h"
-#include "model/core/safetensors.h"
+#include "model/core/files/safetensors.h"
 #include "model/evaluation/judges/interpolation_sampler.h"
 #include "model/metrics/song_beats.h"
 #include "model/samplers/samplers.h"

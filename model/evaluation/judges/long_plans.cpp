@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "model/core/grid.h"
-#include "model/core/random.h"
+#include "model/core/numbers/random.h"
 #include "model/plan/footwork.h"
 
 namespace choreo {

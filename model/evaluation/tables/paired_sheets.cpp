@@ -3,7 +3,7 @@
 #include <cmath>
 #include <fstream>
 
-#include "model/core/random.h"
+#include "model/core/numbers/random.h"
 #include "model/draw/contact_sheet.h"
 #include "model/evaluation/eval_report.h"
 #include "model/evaluation/judges/long_plans.h"

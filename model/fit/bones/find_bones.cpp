@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "model/core/joined.h"
-#include "model/core/printable.h"
+#include "model/core/text/printable.h"
 #include "model/fit/bones/character_body.h"
 #include "model/motion/skeleton.h"
 

@@ -9,7 +9,7 @@
 #include <string>
 #include <utility>
 
-#include "model/core/smooth_step.h"
+#include "model/core/numbers/smooth_step.h"
 #include "model/motion/skeleton.h"
 
 namespace choreo {

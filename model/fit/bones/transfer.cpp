@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "model/core/gaussian_mean.h"
-#include "model/core/smooth_step.h"
+#include "model/core/numbers/gaussian_mean.h"
+#include "model/core/numbers/smooth_step.h"
 #include "model/motion/kinematics/kinematics.h"
 #include "model/motion/kinematics/limb.h"
 #include "model/motion/rotation.h"

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "model/core/error.h"
-#include "model/core/quantile.h"
+#include "model/core/numbers/quantile.h"
 #include "model/fit/sources/landmarks.h"
 #include "model/motion/kinematics/kinematics.h"
 

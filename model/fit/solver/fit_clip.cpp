@@ -5,7 +5,7 @@
 #include <numeric>
 #include <utility>
 
-#include "model/core/quantile.h"
+#include "model/core/numbers/quantile.h"
 #include "model/fit/solver/bone_normaliser.h"
 #include "model/motion/floor/floor_clearance.h"
 

@@ -1,6 +1,6 @@
 #include "model/fit/sources/sources.h"
 
-#include "model/core/quantile.h"
+#include "model/core/numbers/quantile.h"
 #include "model/fit/sources/mapping_builder.h"
 
 namespace choreo {

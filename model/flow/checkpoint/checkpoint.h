@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "model/core/safetensors.h"
+#include "model/core/files/safetensors.h"
 #include "model/flow/checkpoint/checkpoint_file.h"
 
 /// Checkpoints: safetensors files with everything needed to dance (weights, configuration,

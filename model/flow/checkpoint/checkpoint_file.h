@@ -5,8 +5,8 @@
 #include <string>
 
 #include "model/core/error.h"
-#include "model/core/json_limits.h"
-#include "model/core/safetensors.h"
+#include "model/core/files/json_limits.h"
+#include "model/core/files/safetensors.h"
 #include "model/motion/skeleton.h"
 
 /// The data that accompany every checkpoint's tensors: a format name, configuration, skeleton,

@@ -4,11 +4,11 @@
 #include <nlohmann/json.hpp>
 #include <system_error>
 
-#include "model/core/atomic_file.h"
 #include "model/core/error.h"
-#include "model/core/json_limits.h"
-#include "model/core/printable.h"
+#include "model/core/files/atomic_file.h"
+#include "model/core/files/json_limits.h"
 #include "model/core/rounded.h"
+#include "model/core/text/printable.h"
 #include "model/messages/figures_path.h"
 
 namespace choreo {

@@ -9,7 +9,7 @@
 
 #include <memory>
 
-#include "model/core/safetensors.h"
+#include "model/core/files/safetensors.h"
 #include "model/flow/checkpoint/checkpoint.h"
 #include "model/flow/window/flow_model.h"
 

@@ -7,7 +7,7 @@
 
 #include <sstream>
 
-#include "model/core/threads.h"
+#include "model/core/running/threads.h"
 
 namespace choreo {
 namespace {

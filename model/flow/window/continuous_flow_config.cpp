@@ -1,7 +1,7 @@
 #include "model/flow/window/continuous_flow_config.h"
 
 #include "model/core/error.h"
-#include "model/core/json_struct.h"
+#include "model/core/files/json_struct.h"
 
 namespace choreo {
 

@@ -6,7 +6,7 @@
 #include <cstring>
 #include <numbers>
 
-#include "model/core/each_cpu.h"
+#include "model/core/running/each_cpu.h"
 #include "model/motion/kinematics/kinematics.h"
 #include "model/motion/rotation.h"
 

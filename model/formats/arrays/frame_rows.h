@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "model/core/npy.h"
+#include "model/core/files/npy.h"
 #include "model/formats/reading/motion_reading.h"
 #include "model/motion/motion.h"
 

@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "model/core/npy.h"
+#include "model/core/files/npy.h"
 #include "model/formats/containers/npz.h"
 #include "model/formats/reading/motion_reading.h"
 #include "model/motion/motion.h"

@@ -6,8 +6,8 @@
 
 #include "model/core/error.h"
 #include "model/core/joined.h"
-#include "model/core/printable.h"
 #include "model/core/rounded.h"
+#include "model/core/text/printable.h"
 
 namespace choreo {
 

@@ -7,7 +7,7 @@
 
 #include "model/core/error.h"
 #include "model/core/joined.h"
-#include "model/core/quantile.h"
+#include "model/core/numbers/quantile.h"
 #include "model/formats/arrays/own_arrays.h"
 #include "model/motion/rotation.h"
 #include "model/motion/skeleton.h"

@@ -6,8 +6,8 @@
 #include <optional>
 #include <utility>
 
-#include "model/core/atomic_file.h"
 #include "model/core/error.h"
+#include "model/core/files/atomic_file.h"
 #include "model/core/grid.h"
 #include "model/core/rounded.h"
 #include "model/formats/bvh/bvh.h"

@@ -12,7 +12,7 @@
 #include <string_view>
 
 #include "model/core/error.h"
-#include "model/core/printable.h"
+#include "model/core/text/printable.h"
 
 namespace choreo {
 

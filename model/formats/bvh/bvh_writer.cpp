@@ -1,6 +1,6 @@
 #include <cstdio>
 
-#include "model/core/atomic_file.h"
+#include "model/core/files/atomic_file.h"
 #include "model/formats/bvh/bvh.h"
 
 namespace choreo {

@@ -9,8 +9,8 @@
 #include <fstream>
 #include <memory>
 
-#include "model/core/atomic_file.h"
 #include "model/core/error.h"
+#include "model/core/files/atomic_file.h"
 #include "model/core/joined.h"
 
 namespace choreo {

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "model/core/npy.h"
+#include "model/core/files/npy.h"
 
 namespace choreo {
 

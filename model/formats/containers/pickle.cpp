@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "model/core/error.h"
-#include "model/core/npy.h"
+#include "model/core/files/npy.h"
 #include "model/formats/containers/pickle_input.h"
 #include "model/formats/containers/pickled_text.h"
 

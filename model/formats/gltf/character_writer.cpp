@@ -1,8 +1,8 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 
-#include "model/core/atomic_file.h"
 #include "model/core/error.h"
+#include "model/core/files/atomic_file.h"
 #include "model/core/rounded.h"
 #include "model/formats/arrays/own_arrays.h"
 #include "model/formats/gltf/character_file.h"

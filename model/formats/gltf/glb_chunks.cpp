@@ -6,10 +6,10 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 
-#include "model/core/atomic_file.h"
 #include "model/core/error.h"
-#include "model/core/json_limits.h"
-#include "model/core/printable.h"
+#include "model/core/files/atomic_file.h"
+#include "model/core/files/json_limits.h"
+#include "model/core/text/printable.h"
 
 namespace choreo {
 namespace {

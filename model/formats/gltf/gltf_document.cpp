@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "model/core/error.h"
-#include "model/core/json_limits.h"
+#include "model/core/files/json_limits.h"
 #include "model/formats/gltf/glb_chunks.h"
 #include "model/formats/gltf/gltf_nodes.h"
 

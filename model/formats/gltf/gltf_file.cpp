@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstring>
 
-#include "model/core/json_limits.h"
+#include "model/core/files/json_limits.h"
 #include "model/formats/gltf/glb_chunks.h"
 
 namespace choreo {

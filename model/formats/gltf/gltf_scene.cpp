@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "model/core/grid.h"
-#include "model/core/printable.h"
 #include "model/core/rounded.h"
+#include "model/core/text/printable.h"
 #include "model/formats/arrays/own_arrays.h"
 #include "model/formats/gltf/glb_chunks.h"
 #include "model/formats/gltf/gltf_document.h"

@@ -1,8 +1,8 @@
 #include <cmath>
 
 #include "model/body/skin.h"
-#include "model/core/atomic_file.h"
 #include "model/core/error.h"
+#include "model/core/files/atomic_file.h"
 #include "model/fit/bones/human_bones.h"
 #include "model/formats/arrays/own_arrays.h"
 #include "model/formats/gltf/gltf.h"

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "model/core/error.h"
-#include "model/core/quantile.h"
+#include "model/core/numbers/quantile.h"
 #include "model/core/rounded.h"
 #include "model/motion/floor/floor_clearance.h"
 #include "model/motion/kinematics/kinematics.h"

@@ -5,8 +5,8 @@
 #include <charconv>
 
 #include "model/core/error.h"
-#include "model/core/printable.h"
 #include "model/core/rounded.h"
+#include "model/core/text/printable.h"
 
 namespace choreo {
 

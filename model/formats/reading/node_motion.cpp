@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "model/core/error.h"
-#include "model/core/quantile.h"
+#include "model/core/numbers/quantile.h"
 #include "model/core/rounded.h"
 #include "model/fit/bones/character_body.h"
 #include "model/fit/bones/guess_bones.h"

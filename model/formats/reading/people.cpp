@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "model/core/error.h"
-#include "model/core/printable.h"
+#include "model/core/text/printable.h"
 
 namespace choreo {
 

@@ -4,7 +4,7 @@
 #include <functional>
 #include <string>
 
-#include "model/core/npy.h"
+#include "model/core/files/npy.h"
 #include "model/formats/reading/motion_reading.h"
 
 /// Finds one person in arrays of several people. Private to this folder.

@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "model/core/error.h"
-#include "model/core/nearest.h"
+#include "model/core/text/nearest.h"
 #include "model/motion/rotation.h"
 
 namespace choreo {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "model/core/gaussian_mean.h"
+#include "model/core/numbers/gaussian_mean.h"
 
 namespace choreo {
 namespace {

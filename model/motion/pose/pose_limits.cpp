@@ -4,7 +4,7 @@
 #include <sstream>
 
 #include "model/core/error.h"
-#include "model/core/field.h"
+#include "model/core/text/field.h"
 
 namespace choreo {
 namespace {

@@ -1,6 +1,6 @@
 #include "model/papers/networks/controllers_config.h"
 
-#include "model/core/json_struct.h"
+#include "model/core/files/json_struct.h"
 
 namespace choreo {
 

@@ -6,7 +6,7 @@
 #include <optional>
 #include <span>
 
-#include "model/core/random.h"
+#include "model/core/numbers/random.h"
 
 namespace choreo {
 

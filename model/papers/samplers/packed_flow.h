@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "model/core/safetensors.h"
+#include "model/core/files/safetensors.h"
 #include "model/engine/packed/kernels.h"
 #include "model/engine/packed/matrix.h"
 #include "model/motion/skeleton.h"

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "model/core/safetensors.h"
+#include "model/core/files/safetensors.h"
 #include "model/engine/loading.h"
 
 namespace choreo {

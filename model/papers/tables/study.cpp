@@ -7,10 +7,10 @@
 #include <set>
 #include <utility>
 
-#include "model/core/atomic_file.h"
 #include "model/core/error.h"
-#include "model/core/random.h"
-#include "model/core/safetensors.h"
+#include "model/core/files/atomic_file.h"
+#include "model/core/files/safetensors.h"
+#include "model/core/numbers/random.h"
 #include "model/papers/tables/study_page.h"
 
 namespace choreo {

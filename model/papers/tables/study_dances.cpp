@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "model/core/error.h"
-#include "model/core/progress.h"
+#include "model/core/running/progress.h"
 #include "model/draw/video.h"
 #include "model/evaluation/judges/long_plans.h"
 

@@ -7,7 +7,7 @@
 #include <iterator>
 #include <numbers>
 
-#include "model/core/quantile.h"
+#include "model/core/numbers/quantile.h"
 #include "model/motion/kinematics/mirror.h"
 #include "model/motion/pose/facing_pose.h"
 #include "model/motion/resample.h"

@@ -3,7 +3,7 @@
 #include <array>
 #include <vector>
 
-#include "model/core/random.h"
+#include "model/core/numbers/random.h"
 #include "model/motion/controls/velocity_factors.h"
 #include "model/motion/skeleton.h"
 #include "model/papers/networks/controlled_frames.h"

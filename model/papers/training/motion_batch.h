@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "model/core/random.h"
+#include "model/core/numbers/random.h"
 #include "model/papers/networks/transition_tensors.h"
 #include "model/papers/training/paper_options.h"
 #include "model/training/clips/prepared_clip.h"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "model/core/quantile.h"
+#include "model/core/numbers/quantile.h"
 #include "model/motion/kinematics/canonical.h"
 #include "model/motion/kinematics/mirror.h"
 #include "model/motion/rotation.h"

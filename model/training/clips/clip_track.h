@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "model/core/random.h"
+#include "model/core/numbers/random.h"
 #include "model/motion/kinematics/canonical.h"
 #include "model/motion/motion.h"
 #include "model/training/clips/prepared_clip.h"

@@ -9,7 +9,7 @@
 #include <cstdlib>
 
 #include "model/core/error.h"
-#include "model/core/safetensors.h"
+#include "model/core/files/safetensors.h"
 #include "model/motion/skeleton_json.h"
 
 namespace choreo {

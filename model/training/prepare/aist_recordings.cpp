@@ -4,8 +4,8 @@
 #include <map>
 #include <set>
 
-#include "model/core/atomic_file.h"
 #include "model/core/error.h"
+#include "model/core/files/atomic_file.h"
 #include "model/formats/arrays/amass_npz.h"
 #include "model/formats/containers/pickle.h"
 #include "model/training/prepare/recordings.h"

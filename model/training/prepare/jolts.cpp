@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "model/core/smooth_step.h"
+#include "model/core/numbers/smooth_step.h"
 #include "model/motion/kinematics/kinematics.h"
 #include "model/motion/rotation.h"
 

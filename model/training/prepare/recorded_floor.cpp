@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "model/core/quantile.h"
+#include "model/core/numbers/quantile.h"
 
 namespace choreo {
 namespace {

@@ -2,7 +2,7 @@
 #include <fstream>
 
 #include "model/core/error.h"
-#include "model/core/npy.h"
+#include "model/core/files/npy.h"
 #include "model/training/prepare/recordings.h"
 
 namespace choreo {

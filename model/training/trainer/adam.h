@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "model/core/safetensors.h"
+#include "model/core/files/safetensors.h"
 
 namespace choreo {
 

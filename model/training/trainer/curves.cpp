@@ -4,7 +4,7 @@
 #include <sstream>
 #include <string_view>
 
-#include "model/core/atomic_file.h"
+#include "model/core/files/atomic_file.h"
 #include "model/draw/plot.h"
 
 namespace choreo {

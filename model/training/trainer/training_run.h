@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "model/core/error.h"
-#include "model/core/progress.h"
-#include "model/core/random.h"
-#include "model/core/safetensors.h"
+#include "model/core/files/safetensors.h"
+#include "model/core/numbers/random.h"
+#include "model/core/running/progress.h"
 #include "model/training/clips/clip_split.h"
 #include "model/training/trainer/adam.h"
 #include "model/training/trainer/curves.h"

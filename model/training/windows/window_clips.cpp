@@ -5,7 +5,7 @@
 #include <iterator>
 #include <utility>
 
-#include "model/core/smooth_step.h"
+#include "model/core/numbers/smooth_step.h"
 #include "model/motion/kinematics/canonical.h"
 #include "model/motion/kinematics/kinematics.h"
 #include "model/motion/kinematics/mirror.h"

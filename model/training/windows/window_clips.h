@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "model/core/random.h"
+#include "model/core/numbers/random.h"
 #include "model/training/clips/clip_track.h"
 #include "model/training/windows/window_batch.h"
 #include "model/training/windows/window_picker.h"

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "model/core/error.h"
-#include "model/core/random.h"
+#include "model/core/numbers/random.h"
 
 namespace choreo {
 

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <unsupported/Eigen/FFT>
 
-#include "model/core/random.h"
+#include "model/core/numbers/random.h"
 
 namespace choreo::fourier_test {
 

@@ -7,7 +7,7 @@
 #include "client/authoring/fields/counts.h"
 #include "client/authoring/keys/pose_library.h"
 #include "client/authoring/project/formation.h"
-#include "model/core/atomic_file.h"
+#include "model/core/files/atomic_file.h"
 #include "model/motion/kinematics/canonical.h"
 #include "model/motion/kinematics/kinematics.h"
 #include "model/motion/kinematics/mirror.h"

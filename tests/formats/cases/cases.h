@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "model/core/atomic_file.h"
+#include "model/core/files/atomic_file.h"
 #include "model/formats/containers/npz.h"
 #include "model/formats/motion_file.h"
 #include "model/motion/kinematics/kinematics.h"

@@ -3,7 +3,7 @@
 #include <functional>
 #include <vector>
 
-#include "model/core/npy.h"
+#include "model/core/files/npy.h"
 #include "model/formats/arrays/amass_npz.h"
 #include "tests/formats/cases/cases.h"
 

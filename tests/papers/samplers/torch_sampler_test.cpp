@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "model/core/random.h"
+#include "model/core/numbers/random.h"
 #include "model/motion/floor/contacts.h"
 #include "model/motion/kinematics/velocity.h"
 #include "model/motion/pose/pose_codec.h"

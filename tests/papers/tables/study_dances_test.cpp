@@ -5,7 +5,7 @@
 
 #include <cstdlib>
 
-#include "model/core/atomic_file.h"
+#include "model/core/files/atomic_file.h"
 #include "tests/support/expect_error.h"
 #include "tests/support/fake_sampler.h"
 #include "tests/support/music_files.h"

@@ -7,7 +7,7 @@
 #include <set>
 #include <string>
 
-#include "model/core/atomic_file.h"
+#include "model/core/files/atomic_file.h"
 #include "tests/support/expect_error.h"
 #include "tests/support/temporary_folder.h"
 

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "model/core/grid.h"
-#include "model/core/threads.h"
+#include "model/core/running/threads.h"
 #include "model/plan/takes.h"
 #include "tests/support/advanced_clock.h"
 #include "tests/support/expect_error.h"

@@ -4,7 +4,7 @@
 #include <iostream>
 
 #include "client/authoring/keys/pose_library.h"
-#include "model/core/threads.h"
+#include "model/core/running/threads.h"
 #include "model/dance/transition/transition.h"
 #include "model/plan/takes.h"
 #include "model/samplers/samplers.h"

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "model/core/threads.h"
+#include "model/core/running/threads.h"
 #include "model/engine/sampling_cost.h"
 #include "model/samplers/samplers.h"
 #include "server/calls/serving_cost.h"

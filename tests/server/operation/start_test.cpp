@@ -8,7 +8,7 @@
 
 #include "client/authoring/local_server.h"
 #include "client/choreo_client.h"
-#include "model/core/safetensors.h"
+#include "model/core/files/safetensors.h"
 #include "tests/server/load/interrupted_dance.h"
 #include "tests/support/sanitizers.h"
 #include "tests/support/shell.h"

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "model/core/atomic_file.h"
+#include "model/core/files/atomic_file.h"
 #include "model/formats/motion_file.h"
 #include "model/motion/kinematics/kinematics.h"
 #include "tests/client/run_choreo.h"

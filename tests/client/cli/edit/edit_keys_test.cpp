@@ -3,7 +3,7 @@
 
 #include <fstream>
 
-#include "model/core/atomic_file.h"
+#include "model/core/files/atomic_file.h"
 #include "model/motion/kinematics/canonical.h"
 #include "tests/client/edit_fixture.h"
 

@@ -3,7 +3,7 @@
 
 #include <fstream>
 
-#include "model/core/atomic_file.h"
+#include "model/core/files/atomic_file.h"
 #include "tests/client/edit_fixture.h"
 
 namespace choreo::edit_retake_test {

@@ -1,4 +1,4 @@
-#include "model/core/math_library.h"
+#include "model/core/numbers/math_library.h"
 
 #include <features.h>
 #if defined(__GLIBC__)

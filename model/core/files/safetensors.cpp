@@ -1,4 +1,4 @@
-#include "model/core/safetensors.h"
+#include "model/core/files/safetensors.h"
 
 #define XXH_INLINE_ALL
 #include <xxhash.h>
@@ -14,8 +14,8 @@
 #include <nlohmann/json.hpp>
 #include <system_error>
 
-#include "model/core/atomic_file.h"
 #include "model/core/error.h"
+#include "model/core/files/atomic_file.h"
 
 namespace choreo {
 namespace {

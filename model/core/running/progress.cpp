@@ -1,4 +1,4 @@
-#include "model/core/progress.h"
+#include "model/core/running/progress.h"
 
 #include <unistd.h>
 

@@ -1,4 +1,4 @@
-#include "model/core/npy.h"
+#include "model/core/files/npy.h"
 
 #include <Eigen/Core>
 #include <algorithm>
@@ -11,8 +11,8 @@
 #include <set>
 #include <type_traits>
 
-#include "model/core/atomic_file.h"
 #include "model/core/error.h"
+#include "model/core/files/atomic_file.h"
 
 namespace choreo {
 namespace {

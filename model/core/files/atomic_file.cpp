@@ -1,4 +1,4 @@
-#include "model/core/atomic_file.h"
+#include "model/core/files/atomic_file.h"
 
 #include <cerrno>
 #include <cstring>

@@ -1,4 +1,4 @@
-#include "model/core/random.h"
+#include "model/core/numbers/random.h"
 
 #include <algorithm>
 #include <cmath>
