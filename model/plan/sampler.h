@@ -6,6 +6,7 @@
 
 #include "model/core/running/slices.h"
 #include "model/motion/floor/contacts.h"
+#include "model/plan/model_info.h"
 #include "model/plan/transition_spec.h"
 
 /// The interface between dances and networks: takes a transition's spec and returns its plan.

@@ -43,16 +43,6 @@ std::optional<Arrival> ArrivalOf(const TransitionSpec& spec, Arrival::Lead lead)
   return Arrival(spec.arrival_frames, spec.frames, *spec.target, spec.history, spec.after, lead);
 }
 
-void CheckStyle(const ModelInfo& model, const std::string& style) {
-  if (style.empty() || std::ranges::find(model.styles, style) != model.styles.end()) return;
-  if (style.size() > kMaxIdLength) {
-    throw InvalidArgument("style", "has " + std::to_string(style.size()) + " bytes, at most " +
-                                       std::to_string(kMaxIdLength));
-  }
-  throw InvalidArgument("style", "\"" + style + "\" is not a style of the model " + model.name +
-                                     "; " + DidYouMean(style, model.styles));
-}
-
 ValidSpec::ValidSpec(TransitionSpec request, const ModelInfo& model) : Valid(std::move(request)) {
   const TransitionSpec& spec = **this;
   if (spec.frames < 1 || spec.frames > model.max_transition_frames) {

@@ -1,55 +1,19 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <algorithm>
-#include <array>
 #include <cstdint>
 #include <optional>
-#include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
-#include "model/core/limits.h"
 #include "model/core/valid.h"
-#include "model/messages/model_description.h"
 #include "model/motion/controls/controls.h"
 #include "model/motion/kinematics/canonical.h"
 #include "model/motion/motion.h"
 #include "model/plan/arrival.h"
-#include "model/plan/plan_options.h"
+#include "model/plan/model_info.h"
 
-/// Descriptions of a model, and of a transition to sample.
 namespace choreo {
-
-/// The music features that a model uses for each frame, besides beats and energy. A model with such
-/// features starts a transition once all of the transition's music has arrived.
-struct Hearing {
-  int features = 0;  ///< numbers per frame; 0: none
-  /// Computes a frame's features from the mel bands, in dB.
-  void (*row)(std::span<const double> bands, std::span<float> features) = nullptr;
-
-  explicit operator bool() const { return features > 0; }
-};
-
-/// A loaded model: what a server reports about it, and what its engine needs besides. Constant for
-/// the life of a sampler.
-struct ModelInfo : ModelDescription {
-  std::string weights = {};         ///< hash of the checkpoint's content
-  std::string packed_kernels = {};  ///< PackedKernels::name of its kernels; empty: LibTorch
-  /// The frames from a transition's start within which the model sees a later key (LaterTarget). 0:
-  /// it sees no later key.
-  int sight_frames = 0;
-  double max_temperature = kMaxTemperature;  ///< higher values change nothing
-  Hearing hearing = {};
-  bool plan_stages = false;       ///< whether its plans pass kPlanStages (plan/plan_stages.h)
-  PlanOptions plan_options = {};  ///< settings of kPlanStages and of footwork
-
-  bool Takes(std::string_view control) const {
-    return std::ranges::find(controls, control) != controls.end();
-  }
-  bool Takes(size_t row) const { return Takes(kControls[row].name); }
-};
 
 /// A key after the end of a transition.
 struct LaterTarget {
@@ -101,9 +65,6 @@ struct TransitionSpec {
   int arrival_frames = 12;  ///< Arrival's window; TransitionRun's to a key on the floor is longer
   bool footwork = true;
 };
-
-/// Throws Error(kInvalidArgument), field "style", unless it is one of the model's or empty.
-void CheckStyle(const ModelInfo& model, const std::string& style);
 
 /// A spec checked against its model.
 class ValidSpec : public Valid<TransitionSpec> {

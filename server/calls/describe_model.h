@@ -1,7 +1,7 @@
 #pragma once
 
 #include "model/messages/model_description.h"
-#include "model/plan/transition_spec.h"
+#include "model/plan/model_info.h"
 
 namespace choreo {
 

@@ -8,7 +8,7 @@
 #include "model/core/error.h"
 #include "model/dance/dance_stream.h"
 #include "model/dance/transition_group.h"
-#include "model/plan/transition_spec.h"
+#include "model/plan/model_info.h"
 
 /// Checks requests of the API and converts them to the dance's own types. Each function throws
 /// Error with the field's path, which begins with `field` if that is a parameter. Pure functions,

@@ -17,7 +17,6 @@
 #include "model/core/programs.h"
 #include "model/core/text/nearest.h"
 #include "model/engine/engine_choice.h"
-#include "model/plan/transition_spec.h"
 #include "network/address.h"
 #include "network/pem.h"
 #include "network/protocol.h"

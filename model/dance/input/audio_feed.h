@@ -11,7 +11,7 @@
 #include "model/audio/music/feature_stream.h"
 #include "model/audio/music/music_dynamics.h"
 #include "model/core/grid.h"
-#include "model/plan/transition_spec.h"
+#include "model/plan/model_info.h"
 
 namespace choreo {
 

@@ -16,6 +16,7 @@
 #include "model/dance/timeline/timeline.h"
 #include "model/messages/dance_event.h"
 #include "model/messages/dance_manner.h"
+#include "model/plan/model_info.h"
 #include "model/plan/transition_spec.h"
 
 namespace choreo {

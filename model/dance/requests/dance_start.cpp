@@ -15,7 +15,7 @@
 #include "model/dance/timeline/timeline.h"
 #include "model/dance/timeline/validation.h"
 #include "model/motion/pose/pose_limits.h"
-#include "model/plan/transition_spec.h"
+#include "model/plan/model_info.h"
 
 namespace choreo {
 namespace {

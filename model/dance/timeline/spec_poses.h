@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "model/motion/kinematics/canonical.h"
+#include "model/plan/model_info.h"
 #include "model/plan/transition_spec.h"
 
 /// The start and target poses of a transition, and the speeds needed between them. Pure functions.

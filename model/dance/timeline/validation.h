@@ -11,7 +11,7 @@
 #include "model/messages/continuation.h"
 #include "model/motion/motion.h"
 #include "model/motion/pose/pose_limits.h"
-#include "model/plan/transition_spec.h"
+#include "model/plan/model_info.h"
 
 /// Checks of external input (for audio see audio/signal/format.h). Each function throws
 /// Error(kInvalidArgument) whose field is the sender's path and whose message states the value and

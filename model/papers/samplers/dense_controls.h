@@ -1,5 +1,6 @@
 #pragma once
 
+#include "model/plan/model_info.h"
 #include "model/plan/transition_spec.h"
 
 namespace choreo {
