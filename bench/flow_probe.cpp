@@ -67,15 +67,15 @@ void WriteFlowProbe(const std::filesystem::path& checkpoint, const std::filesyst
     NamedTensor& log_likelihood = add("log_likelihood", Zeros({kRows}));
     for (int row = 0; row < kRows; ++row) {
       has_audio.data[static_cast<size_t>(row)] = row == 1 ? 0.0F : 1.0F;
-      const FrameNoise drawn = {
-          .seed = 11, .frame = frame, .candidate = static_cast<uint32_t>(row), .spread = 0.5F};
-      drawn.Fill(Row(noise, row));
+      const TransitionNoise drawn = {
+          .seed = 11, .candidate = static_cast<uint32_t>(row), .temperature = 0.5};
       FlowFrame made = {.frame = frame,
                         .past = Row(past, row),
                         .audio = Row(audio, row),
                         .has_audio = row != 1,
-                        .noise = drawn,
+                        .noise = &drawn,
                         .features = Row(features, row)};
+      made.FillNoise(Row(noise, row));
       steppers[static_cast<size_t>(row)].Step(&made);
       log_likelihood.data[static_cast<size_t>(row)] = made.log_likelihood.value();
     }

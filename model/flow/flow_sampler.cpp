@@ -8,7 +8,6 @@
 
 #include "model/core/grid.h"
 #include "model/core/limits.h"
-#include "model/core/numbers/random.h"
 #include "model/flow/flow_field.h"
 #include "model/flow/window/window_energy.h"
 #include "model/flow/window/window_features.h"
@@ -29,20 +28,20 @@ constexpr int kRounds = 3;  // of requesting energy, if spare frames are left
 
 // The random numbers of a window, [.., w]: of the motion's dimensions, then of the energy's levels
 // (the first frame's count) and curves.
-Eigen::MatrixXf Normals(const FlowModelParts& model, const FlowNoise& noise, int frames) {
+Eigen::MatrixXf Normals(const FlowModelParts& model, const TransitionNoise& noise, int frames) {
   Eigen::MatrixXf normals(model.prior.dimensions() + 2 * kBodyParts, frames);
   for (int i = 0; i < frames; ++i)
-    noise.Fill(i, {normals.col(i).data(), static_cast<size_t>(normals.rows())});
+    noise.FillNoise(i, {normals.col(i).data(), static_cast<size_t>(normals.rows())});
   return normals;
 }
 
 // What a frame's random numbers after Normals' are for.
 enum Decision { kFreeTurn, kWayToKey, kDecisions };
 
-double NumberFor(Decision decision, const FlowModelParts& model, const FlowNoise& noise) {
+double NumberFor(Decision decision, const FlowModelParts& model, const TransitionNoise& noise) {
   const auto first = static_cast<size_t>(model.prior.dimensions() + 2 * kBodyParts);
   std::vector<float> normal(first + kDecisions);
-  noise.Fill(0, normal);
+  noise.FillNoise(0, normal);
   return normal[first + decision];
 }
 
@@ -82,7 +81,7 @@ std::vector<WindowFeatures> Describe(const FlowModelParts& model, WindowRequest 
 
 // One pass from noise to motion.
 Slices<std::vector<Pose>> SamplePass(const FlowModelParts& model, const FlowNetwork& network,
-                                     WindowRequest request, FlowNoise noise) {
+                                     WindowRequest request, TransitionNoise noise) {
   FlowWindow window(model.prior, request);
   const Eigen::MatrixXf normals = Normals(model, noise, window.frames());
   const double temperature = std::min(noise.temperature, kMaxFlowTemperature);
@@ -155,14 +154,8 @@ WindowRequest ToWindowRequest(const TransitionSpec& spec, const std::vector<std:
 
 }  // namespace
 
-void FlowNoise::Fill(int frame, std::span<float> out) const {
-  const int64_t own = first_frame + frame;
-  FillNormalLike(seed, candidate, own, like.empty() ? own : like[static_cast<size_t>(frame)],
-                 variation, out);
-}
-
 Slices<std::vector<Pose>> SampleWindow(const FlowModelParts& model, const FlowNetwork& network,
-                                       WindowRequest request, FlowNoise noise) {
+                                       WindowRequest request, TransitionNoise noise) {
   const std::vector<int> pairs = MirrorPairs(model.skeleton);
   if (noise.temperature > 0) co_return co_await SamplePass(model, network, request, noise);
   // The mean motion is the mirror image of the mirrored request's. The network is not fully
@@ -176,7 +169,7 @@ Slices<std::vector<Pose>> SampleWindow(const FlowModelParts& model, const FlowNe
 }
 
 Slices<std::vector<Pose>> SampleTransition(const FlowModelParts& model, const FlowNetwork& network,
-                                           WindowRequest request, FlowNoise noise,
+                                           WindowRequest request, TransitionNoise noise,
                                            SpareFrames* spare) {
   if (!request.turn_to_key)
     request.turn_to_key = model.turns.Sample(model.skeleton, request,
@@ -195,10 +188,11 @@ Slices<std::vector<Pose>> SampleTransition(const FlowModelParts& model, const Fl
     const double most = std::max(kMaxDeviation, usual.Deviation(danced.back()));
     BestTake<std::vector<Pose>> best;
     while (best.WantsAnother() && spare->SpendUnlessFirst(best.takes(), frames)) {
-      FlowNoise own = noise;
+      TransitionNoise own = noise;
       own.first_frame += from;
       own.candidate = CandidateOfTake(noise.candidate, best.takes());
-      if (!own.like.empty()) own.like.erase(own.like.begin(), own.like.begin() + from);
+      if (!own.noise_like.empty())
+        own.noise_like.erase(own.noise_like.begin(), own.noise_like.begin() + from);
       WindowRequest own_part = part;
       if (part.FrontCounts())
         own_part.free_turn = FreeTurn(
@@ -231,25 +225,19 @@ ContinuousFlowSampler::ContinuousFlowSampler(ModelInfo info, std::string device,
 
 Slices<Plan> ContinuousFlowSampler::Sample(const ValidSpec& valid) {
   const TransitionSpec& spec = *valid;
-  const FlowNoise noise{.seed = spec.seed,
-                        .candidate = spec.candidate,
-                        .first_frame = spec.first_frame,
-                        .like = spec.noise_like,
-                        .variation = spec.variation,
-                        .temperature = spec.temperature};
   WindowRequest request = ToWindowRequest(spec, model_.styles);
   ControlCurve& energy = request.controls[kVelocityFactors];
   const Eigen::MatrixXd wanted = energy.values;
   // The mean way's energy cannot be changed.
   const bool in_rounds =
-      noise.temperature > 0 && energy.IsGiven() && std::ranges::count(energy.requested, true) > 0;
+      spec.temperature > 0 && energy.IsGiven() && std::ranges::count(energy.requested, true) > 0;
   std::array<double, kBodyParts> more = {};
   Plan plan;
   SpareFrames spare(spec.spare_frames);
   double least = std::numeric_limits<double>::infinity();  // the error of the nearest result
   for (int round = 0; round < (in_rounds ? kRounds : 1); ++round) {
     if (!spare.SpendUnlessFirst(round, spec.frames)) break;
-    std::vector<Pose> poses = co_await SampleTransition(*parts_, *network_, request, noise, &spare);
+    std::vector<Pose> poses = co_await SampleTransition(*parts_, *network_, request, spec, &spare);
     const double error = in_rounds ? CorrectEnergy(parts_->skeleton, spec.history.back(), poses,
                                                    wanted, more, energy)
                                    : 0;

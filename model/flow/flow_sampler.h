@@ -12,28 +12,14 @@
 #include "model/flow/window/flow_window.h"
 #include "model/plan/sampler.h"
 #include "model/plan/takes.h"
+#include "model/plan/transition_noise.h"
 
 namespace choreo {
 
-/// The largest temperature, which limits extrapolation beyond the sampled motion.
+/// The temperature interpolates from the mean motion (0, in one step) to a sampled one (1) and
+/// beyond, at most to this. Noise itself is never scaled, because the network would take it for a
+/// calm dancer.
 inline constexpr double kMaxFlowTemperature = 1.25;
-
-struct FlowNoise {
-  uint64_t seed = 0;
-  uint32_t candidate = 0;
-  int64_t first_frame = 0;  ///< absolute number of the window's first frame
-  /// For each frame from the first on, the absolute frame whose numbers it repeats with
-  /// `variation`, 0 to 1 (FillNormalLike). Empty: all frames have their own.
-  std::vector<int64_t> like = {};
-  double variation = 0;
-  /// Interpolates from the mean motion (0, in one step) to a sampled one (1) and slightly beyond,
-  /// at most kMaxFlowTemperature. Noise itself is never scaled, because the network would take it
-  /// for a calm dancer.
-  double temperature = 0;
-
-  /// The noise of a frame, counted from the first.
-  void Fill(int frame, std::span<float> out) const;
-};
 
 /// Samples one window: from noise at t = 0 to motion at t = 1 along dz/dt = (2t - 1)/a z +
 /// F/sqrt(a), a = t² + (1 - t)² (flow matching, Lipman et al. 2023). With w = z/sqrt(a) over the
@@ -43,7 +29,7 @@ struct FlowNoise {
 /// energy from the energy prior and curve: the mean at temperature 0, else a sample. A slice is one
 /// evaluation of the network. Model and network must outlive the slices.
 Slices<std::vector<Pose>> SampleWindow(const FlowModelParts& model, const FlowNetwork& network,
-                                       WindowRequest request, FlowNoise noise);
+                                       WindowRequest request, TransitionNoise noise);
 
 /// Samples a transition of any length as windows of at most config.window_frames, one after
 /// another, each in its own canonical frame. Every window sees the transition's key if it is at
@@ -52,7 +38,7 @@ Slices<std::vector<Pose>> SampleWindow(const FlowModelParts& model, const FlowNe
 /// transition, at least one frame; frames <= to_key if there is a key. The model's TurnPrior
 /// chooses the direction of the turn to the key, unless the request does.
 Slices<std::vector<Pose>> SampleTransition(const FlowModelParts& model, const FlowNetwork& network,
-                                           WindowRequest request, FlowNoise noise,
+                                           WindowRequest request, TransitionNoise noise,
                                            SpareFrames* spare);
 
 /// Samples the continuous flow. A slice is one evaluation of its network. If energy is requested,

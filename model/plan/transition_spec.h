@@ -12,6 +12,7 @@
 #include "model/motion/motion.h"
 #include "model/plan/arrival.h"
 #include "model/plan/model_info.h"
+#include "model/plan/transition_noise.h"
 
 namespace choreo {
 
@@ -29,7 +30,7 @@ struct MusicRows {
 
 /// All inputs of a transition. All poses are in one frame of reference: the world's for a
 /// TransitionRun, the canonical one (motion/kinematics/canonical.h) for a Sampler.
-struct TransitionSpec {
+struct TransitionSpec : TransitionNoise {
   int frames = 0;             ///< N >= 1; with a target, frame N-1 is the key's
   std::vector<Pose> history;  ///< tau poses, oldest first; the last one directly precedes frame 0
   std::optional<Target> target;           ///< none: dances to music alone
@@ -48,17 +49,8 @@ struct TransitionSpec {
   std::vector<double> beats;
   Controls controls;        ///< beside the key (paper C, Section 3.3)
   EnergyShift energy = {};  ///< for models that sample the energy themselves
-  uint64_t seed = 0;
-  uint32_t candidate = 0;
-  int64_t first_frame = 0;  ///< absolute number of frame 0: noise is keyed by (seed, candidate,
-                            ///< absolute frame, dimension)
-  /// For each frame, the absolute frame that it repeats and whose noise it shares, with this
-  /// `variation`, 0 to 1 (FillNormalLike). [frames] or empty.
-  std::vector<int64_t> noise_like = {};
-  double variation = 0;
   /// The most frames to sample again (plan/takes.h).
   int spare_frames = 0;
-  float temperature = 0.3F;
   std::string style = {};               ///< one of the model's, or empty for any
   std::optional<MusicRows> music = {};  ///< for models that hear; none: no music
   // Set the next two to 0 and false to measure the model alone.

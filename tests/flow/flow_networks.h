@@ -13,12 +13,12 @@
 namespace choreo {
 
 inline std::vector<Pose> Window(const FlowModelParts& model, const FlowNetwork& network,
-                                const WindowRequest& request, const FlowNoise& noise) {
+                                const WindowRequest& request, const TransitionNoise& noise) {
   return SampleWindow(model, network, request, noise).Finish();
 }
 
 inline std::vector<Pose> Transition(const FlowModelParts& model, const FlowNetwork& network,
-                                    const WindowRequest& request, const FlowNoise& noise) {
+                                    const WindowRequest& request, const TransitionNoise& noise) {
   SpareFrames spare = SpareFrames::Of(request.frames);
   return SampleTransition(model, network, request, noise, &spare).Finish();
 }

@@ -43,9 +43,9 @@ TEST(FlowSampler, MeanTakesOneStepAndIgnoresTheSeed) {
   const Scene scene = MakeScene(30);
   const FlowModelParts parts = Parts();
   const Silent network;
-  const auto one = Window(parts, network, scene.request, {.seed = 1});
+  const auto one = Window(parts, network, scene.request, {.seed = 1, .temperature = 0});
   EXPECT_EQ(network.evaluations, 2);
-  const auto other = Window(parts, network, scene.request, {.seed = 2});
+  const auto other = Window(parts, network, scene.request, {.seed = 2, .temperature = 0});
   for (size_t i = 0; i < one.size(); ++i) EXPECT_EQ(Apart(one[i], other[i]), 0);
 }
 
@@ -285,7 +285,7 @@ TEST(FlowSampler, TurningTheSceneTurnsTheDance) {
   const Scene scene = MakeScene(60);
   const FlowModelParts parts = Parts();
   const Silent network;
-  const FlowNoise noise{.seed = 5, .temperature = 1};
+  const TransitionNoise noise{.seed = 5, .temperature = 1};
   const auto here = Transition(parts, network, scene.request, noise);
   const GroundFrame elsewhere{.origin = {1, 0, -2}, .heading = 0.7};
   WindowRequest turned = scene.request;

@@ -10,7 +10,6 @@
 
 #include "model/audio/signal/mfcc.h"
 #include "model/core/error.h"
-#include "model/core/numbers/random.h"
 #include "model/motion/controls/velocity_factors.h"
 #include "model/plan/sampler.h"
 
@@ -60,10 +59,7 @@ class FakeTransition {
 
   /// Adds the next frame.
   void Step(int frame, Plan* plan) {
-    const int64_t own = spec_.first_frame + frame;
-    const int64_t like =
-        spec_.noise_like.empty() ? own : spec_.noise_like[static_cast<size_t>(frame)];
-    FillNormalLike(spec_.seed, spec_.candidate, own, like, spec_.variation, noise_);
+    spec_.FillNoise(frame, noise_);
     double music = 0;
     if (spec_.music && model_.hearing)
       music = std::tanh(spec_.music->rows.col(frame).cast<double>().sum() / 100.0);

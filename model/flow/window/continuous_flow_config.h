@@ -27,7 +27,7 @@ struct ContinuousFlowConfig {
   int condition = 128;  ///< width of each block's conditioning: time, history, key, style
 
   int steps = 3;           ///< K, network evaluations from noise to motion
-  double temperature = 1;  ///< the served default, as in FlowNoise
+  double temperature = 1;  ///< the served default, as in TransitionNoise
   /// Multiplies the effect of beats and style on F (classifier-free guidance, Ho & Salimans 2022).
   /// Except for 1, guidance doubles the evaluations with a style, and takes one less than twice
   /// with beats alone.

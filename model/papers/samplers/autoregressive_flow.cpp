@@ -40,9 +40,8 @@ class TransitionWindow {
   std::optional<MusicRows> music_;
 
   int frame_ = 0;
-  FrameNoise noise_;           // the frame's
-  std::vector<int64_t> like_;  // TransitionSpec::noise_like
-  Pose last_;                  // the previous frame
+  const TransitionNoise noise_;
+  Pose last_;  // the previous frame
   JointPlacement last_placement_;
   ContactDetector contacts_;
 
@@ -58,12 +57,7 @@ TransitionWindow::TransitionWindow(const ModelInfo& model, int audio_features,
       past_(static_cast<size_t>(model.history_frames * codec_.width())),
       audio_(static_cast<size_t>((model.history_frames + 1) * audio_features)),
       music_(model.hearing ? spec.music : std::nullopt),
-      noise_{.seed = spec.seed,
-             .frame = spec.first_frame,
-             .candidate = spec.candidate,
-             .spread = spec.temperature,
-             .variation = spec.variation},
-      like_(spec.noise_like),
+      noise_(spec),
       last_(spec.history.back()),
       contacts_(model.skeleton) {
   const int tau = model.history_frames;
@@ -108,14 +102,12 @@ void TransitionWindow::Fill(FlowFrame* frame) const {
   frame->past = past_;
   frame->audio = audio_;
   frame->has_audio = music_.has_value();
-  frame->noise = noise_;
-  frame->noise.like = like_.empty() ? noise_.frame : like_[static_cast<size_t>(frame_)];
+  frame->noise = &noise_;
 }
 
 const PoseCodec::Decoded& TransitionWindow::Finish(const FlowFrame& frame) {
   codec_.Decode(Eigen::Map<const Eigen::VectorXf>(frame.features.data(), codec_.width()), decoded_);
   ++frame_;
-  ++noise_.frame;
   return decoded_;
 }
 

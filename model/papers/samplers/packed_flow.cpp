@@ -287,7 +287,7 @@ void PackedStepper::AddPrediction(std::span<const float> past, float* x) const {
 void PackedStepper::Step(FlowFrame* frame) {
   const PackedFlow& flow = *flow_;
   const std::span<float> noise(z_.Row(0), static_cast<size_t>(flow.width));
-  frame->noise.Fill(noise);
+  frame->FillNoise(noise);
   double squares = 0;
   for (const float value : noise) squares += static_cast<double>(value) * value;
   const double base = squares + std::log(2 * std::numbers::pi) * flow.width;

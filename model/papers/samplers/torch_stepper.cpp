@@ -47,7 +47,7 @@ void TorchStepper::Step(FlowFrame* frame) {
   const std::span<float> condition = Row(kCondition);
   std::copy_n(static_condition_.data() + static_cast<size_t>(frame->frame) * condition.size(),
               condition.size(), condition.begin());
-  frame->noise.Fill(Row(kNoise));
+  frame->FillNoise(Row(kNoise));
   if (input_.is_cuda()) input_.copy_(host_input_, /*non_blocking=*/true);
   FlowModel model = weights_->model;
   const int64_t tau = model->config().history_frames;
