@@ -124,29 +124,22 @@ WindowRequest PartOf(const WindowRequest& request, int from, int frames,
                      const std::vector<Pose>& danced, const GroundFrame& ground) {
   WindowRequest part =
       request.Part(from, frames, std::span(danced).last(request.history.size()), ground);
-  if (part.key && part.to_key > kSightFrames) {  // training shows none so far away
-    part.key.reset();
+  if (part.target && part.to_key > kSightFrames) {  // training shows none so far away
+    part.target.reset();
     part.turn_to_key.reset();
   }
   return part;
 }
 
 WindowRequest ToWindowRequest(const TransitionSpec& spec, const std::vector<std::string>& styles) {
-  WindowRequest request{.frames = spec.frames, .history = spec.history, .to_key = spec.frames};
-  const Target* target = spec.target ? &*spec.target : spec.later ? &spec.later->target : nullptr;
-  if (target != nullptr) {
-    request.key = target->pose;
-    request.mask = target->mask;
-    if (target->height) {
-      request.height = true;
-      request.key->root_position.y() = *target->height;
-    }
-    if (!spec.target) request.to_key += spec.later->frames;
+  WindowRequest request{spec, spec.frames};
+  if (!spec.target && spec.later) {
+    request.target = spec.later->target;
+    request.to_key += spec.later->frames;
   }
-  request.stage = spec.stage.value_or(GroundFrame());
-  request.controls = spec.controls;
-  request.beats = spec.beats;
-  request.energy_shift = spec.energy;
+  if (request.target && request.target->height)
+    request.target->pose.root_position.y() = *request.target->height;
+  if (!request.stage) request.stage = GroundFrame();
   if (const auto style = std::ranges::find(styles, spec.style); style != styles.end())
     request.style = static_cast<int>(style - styles.begin());
   return request;
@@ -183,7 +176,7 @@ Slices<std::vector<Pose>> SampleTransition(const FlowModelParts& model, const Fl
     const int frames = request.frames * (window + 1) / windows - from;
     const GroundFrame ground = GroundFrame::Of(danced.back());
     const WindowRequest part = PartOf(request, from, frames, danced, ground);
-    const bool may_stray = !(part.key && part.to_key == part.frames) &&
+    const bool may_stray = !(part.target && part.to_key == part.frames) &&
                            !request.controls[kRootPath].IsRequested(kPathHeight);
     const double most = std::max(kMaxDeviation, usual.Deviation(danced.back()));
     BestTake<std::vector<Pose>> best;

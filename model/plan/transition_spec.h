@@ -7,11 +7,10 @@
 #include <vector>
 
 #include "model/core/valid.h"
-#include "model/motion/controls/controls.h"
-#include "model/motion/kinematics/canonical.h"
 #include "model/motion/motion.h"
 #include "model/plan/arrival.h"
 #include "model/plan/model_info.h"
+#include "model/plan/motion_request.h"
 #include "model/plan/transition_noise.h"
 
 namespace choreo {
@@ -28,27 +27,16 @@ struct MusicRows {
   Eigen::MatrixXf rows;     ///< [features, frames], of the transition's own frames
 };
 
-/// All inputs of a transition. All poses are in one frame of reference: the world's for a
-/// TransitionRun, the canonical one (motion/kinematics/canonical.h) for a Sampler.
-struct TransitionSpec : TransitionNoise {
-  int frames = 0;             ///< N >= 1; with a target, frame N-1 is the key's
-  std::vector<Pose> history;  ///< tau poses, oldest first; the last one directly precedes frame 0
-  std::optional<Target> target;           ///< none: dances to music alone
+/// All inputs of a transition, whose target is the pose of its last frame. Its poses are in the
+/// world for a TransitionRun, in the canonical frame (motion/kinematics/canonical.h) for a Sampler.
+/// Without a stage it takes the position and facing of the history's last pose.
+struct TransitionSpec : MotionRequest, TransitionNoise {
   std::optional<LaterTarget> later = {};  ///< only without a target; for models with sight_frames
   /// The pose one frame after the target, if the following motion already exists.
   std::optional<Pose> after = {};
   /// How hard the target is hit, 0 to kMaxHit (plan/plan_stages.h). The dancer then comes to rest
   /// in it unless `after` follows. None: passes the target at the dance's own speed.
   std::optional<double> hit = {};
-  /// The middle of the floor area in which the dance stays if nothing fixes its position, and the
-  /// audience, which the dancer faces if nothing fixes the facing. None: the position and facing of
-  /// the history's last pose.
-  std::optional<GroundFrame> stage = {};
-  /// The music's beats, in frames from frame 0, ascending. A dance without a path is timed to them
-  /// (plan/plan_stages.h). Empty: unknown.
-  std::vector<double> beats;
-  Controls controls;        ///< beside the key (paper C, Section 3.3)
-  EnergyShift energy = {};  ///< for models that sample the energy themselves
   /// The most frames to sample again (plan/takes.h).
   int spare_frames = 0;
   std::string style = {};               ///< one of the model's, or empty for any

@@ -143,7 +143,7 @@ TEST(FlowSampler, LongTransitionsJoinSmoothlyAndReachTheirKey) {
   const auto poses = Transition(parts, network, scene.request, {.seed = 5, .temperature = 1});
   EXPECT_EQ(network.evaluations, 3 * parts.config.steps);
   ASSERT_EQ(poses.size(), 100U);
-  EXPECT_LT(Apart(poses.back(), *scene.request.key), 1e-2);
+  EXPECT_LT(Apart(poses.back(), scene.request.target->pose), 1e-2);
   double fastest = 0, at_cuts = 0;
   for (size_t i = 1; i < poses.size(); ++i) {
     const double step = Apart(poses[i - 1], poses[i]);
@@ -171,7 +171,7 @@ class Sinking : public Silent {
 
 TEST(FlowSampler, FreeWindowsThatEndWhereNobodyDancesAreSampledAgain) {
   Scene scene = MakeScene(30);
-  scene.request.key.reset();
+  scene.request.target.reset();
   FlowModelParts parts = Parts();
   UsualPose usual;
   usual.pose = RestPose(parts.skeleton);
@@ -290,7 +290,7 @@ TEST(FlowSampler, TurningTheSceneTurnsTheDance) {
   const GroundFrame elsewhere{.origin = {1, 0, -2}, .heading = 0.7};
   WindowRequest turned = scene.request;
   for (Pose& pose : turned.history) pose = elsewhere.ToWorld(pose);
-  turned.key = elsewhere.ToWorld(*turned.key);
+  turned.target->pose = elsewhere.ToWorld(turned.target->pose);
   const auto there = Transition(parts, network, turned, noise);
   for (size_t i = 0; i < here.size(); ++i)
     EXPECT_LT(Apart(elsewhere.ToWorld(here[i]), there[i]), 1e-6);

@@ -37,7 +37,7 @@ inline Scene MakeScene(int frames) {
   std::vector<Pose> poses = clip.motion.frames;
   const GroundFrame ground = GroundFrame::Of(poses[kTau - 1]);
   for (Pose& pose : poses) pose = ground.ToLocal(pose);
-  Scene scene{{.frames = frames, .key = poses.back(), .to_key = frames}, {}};
+  Scene scene{{{.frames = frames, .target = Target{poses.back(), {}}}, frames}, {}};
   scene.request.history.assign(poses.begin(), poses.begin() + kTau);
   scene.truth.assign(poses.begin() + kTau, poses.end());
   return scene;

@@ -13,7 +13,7 @@ TEST(FlowWindow, DecodingInvertsEncoding) {
   const FlowModelParts parts = Parts();
   for (const bool keyed : {true, false}) {
     WindowRequest request = scene.request;
-    if (!keyed) request.key.reset();
+    if (!keyed) request.target.reset();
     const FlowWindow window(parts.prior, request);
     const auto x = window.Encode(scene.truth);
     ASSERT_TRUE(x);
@@ -48,20 +48,21 @@ TEST(FlowWindow, MeanEndsAtTheKeyExceptWhereItsMaskIsOpen) {
     const FlowWindow window(parts.prior, request);
     return window.Decode(Eigen::MatrixXd::Zero(parts.prior.dimensions(), 30)).back();
   };
-  EXPECT_LT(Apart(last(scene.request), *scene.request.key), 2e-3);
+  EXPECT_LT(Apart(last(scene.request), scene.request.target->pose), 2e-3);
   WindowRequest arms = scene.request;
-  arms.mask.root_position = false;
-  arms.mask.joints.assign(24, false);
-  arms.mask.joints[16] = true;
+  arms.target->mask.root_position = false;
+  arms.target->mask.joints.assign(24, false);
+  arms.target->mask.joints[16] = true;
   const Pose reached = last(arms);
-  EXPECT_LT((reached.rotations.col(16) - scene.request.key->rotations.col(16)).norm(), 5e-3);
-  EXPECT_GT((reached.rotations.col(4) - scene.request.key->rotations.col(4)).norm(), 0.02);
+  EXPECT_LT((reached.rotations.col(16) - scene.request.target->pose.rotations.col(16)).norm(),
+            5e-3);
+  EXPECT_GT((reached.rotations.col(4) - scene.request.target->pose.rotations.col(4)).norm(), 0.02);
 }
 
 // Keys too far away for their time force any speed; what follows must not be faster still.
 TEST(FlowWindow, SlowsDownAfterAnImpossiblyFastHistory) {
   Scene scene = MakeScene(30);
-  scene.request.key.reset();
+  scene.request.target.reset();
   const auto carried = [&](double speed) {
     for (int i = 0; i < kTau; ++i)
       scene.request.history[static_cast<size_t>(i)].root_position.x() = speed * (i + 1 - kTau);
@@ -77,7 +78,7 @@ TEST(FlowWindow, ReturnsToTheUsualPoseInAnyHeading) {
   const Pose rest = RestPose(Skeleton::Smpl24());
   const MotionPrior prior(Parts().prior.covariance(), {}, {rest, Eigen::VectorXd::Constant(75, 1)});
   for (Pose& pose : scene.request.history) pose = scene.request.history.back();  // stands still
-  scene.request.key.reset();
+  scene.request.target.reset();
   const FlowWindow window(prior, scene.request);
   const Pose& last = scene.request.history.back();
   const Pose end = window.Decode(Eigen::MatrixXd::Zero(prior.dimensions(), 30)).back();
@@ -102,7 +103,7 @@ TEST(FlowWindow, ReturnsToTheStage) {
     return Eigen::Vector3d(end() - there);
   };
   WindowRequest open = scene.request;
-  open.key.reset();
+  open.target.reset();
   const Eigen::Vector3d back = led(open, {1, 9, -2});
   EXPECT_GT(back.x(), 0.03);
   EXPECT_LT(back.x(), 1);
@@ -110,9 +111,9 @@ TEST(FlowWindow, ReturnsToTheStage) {
   EXPECT_NEAR(back.z(), -2 * back.x(), 1e-9);
   EXPECT_EQ(led(scene.request, {1, 0, 0}).norm(), 0) << "the key says the place";
   WindowRequest arms = scene.request;
-  arms.mask.root_position = false;
+  arms.target->mask.root_position = false;
   EXPECT_GT(led(arms, {1, 0, 0}).x(), 0.03);
-  open.controls[kRootPath].values = scene.request.key->root_position.replicate(1, 30);
+  open.controls[kRootPath].values = scene.request.target->pose.root_position.replicate(1, 30);
   EXPECT_EQ(led(open, {1, 0, 0}).norm(), 0) << "the path does";
 }
 
@@ -143,7 +144,7 @@ TEST(FlowWindow, TurnsBackToTheAudience) {
     return end() - ahead;
   };
   WindowRequest open = scene.request;
-  open.key.reset();
+  open.target.reset();
   for (Pose& pose : open.history) pose = open.history.back();  // stands still
   EXPECT_NEAR(turn(strict, open, 1), 1, 1e-3);
   EXPECT_NEAR(turn(strict, open, -3), -3, 1e-3);
@@ -154,17 +155,17 @@ TEST(FlowWindow, TurnsBackToTheAudience) {
   EXPECT_EQ(turn(anywhere, open, 1), 0);
   EXPECT_EQ(turn(strict, scene.request, 1), turn(strict, scene.request, 2)) << "the key says it";
   WindowRequest arms = open;
-  arms.key = scene.request.key;
-  arms.mask.joints.assign(24, false);
-  arms.mask.joints[16] = true;
+  arms.target = scene.request.target;
+  arms.target->mask.joints.assign(24, false);
+  arms.target->mask.joints[16] = true;
   EXPECT_NEAR(turn(strict, arms, 1), 1, 1e-3);
-  open.controls[kRootPath].values = scene.request.key->root_position.replicate(1, 30);
+  open.controls[kRootPath].values = scene.request.target->pose.root_position.replicate(1, 30);
   EXPECT_EQ(turn(strict, open, 1), turn(anywhere, open, 1)) << "a path leads her";
 }
 
 TEST(FlowWindow, FreeTurnIsThePriorsPrediction) {
   WindowRequest request = MakeScene(30).request;
-  request.key.reset();
+  request.target.reset();
   const MotionPrior& prior = Parts().prior;
   const double none = FreeTurn(prior, request, 0);
   const FlowWindow window(prior, request);
@@ -194,8 +195,8 @@ TEST(FlowWindow, JointPositionsMatchThePoses) {
 
 TEST(WindowRequest, MirroredTwiceIsItself) {
   WindowRequest request = MakeScene(30).request;
-  request.mask.joints.assign(24, true);
-  request.mask.joints[16] = false;
+  request.target->mask.joints.assign(24, true);
+  request.target->mask.joints[16] = false;
   request.turn_to_key = Eigen::Vector3d(0.1, 2, -0.3);
   request.controls[kRootPath].values = Eigen::Matrix3Xd::Random(3, 30);
   request.controls[kVelocityFactors].values = Eigen::MatrixXd::Random(kBodyParts, 30).cwiseAbs();
@@ -204,7 +205,7 @@ TEST(WindowRequest, MirroredTwiceIsItself) {
   request.free_turn = 2;
   const std::vector<int> pairs = MirrorPairs(Skeleton::Smpl24());
   const WindowRequest other = Mirror(pairs, request), back = Mirror(pairs, other);
-  EXPECT_FALSE(other.mask.joints[17]);
+  EXPECT_FALSE(other.target->mask.joints[17]);
   EXPECT_EQ(other.stage->heading, -0.5);
   EXPECT_EQ(other.free_turn, -2);
   EXPECT_EQ(other.controls[kRootPath].values.row(0), -request.controls[kRootPath].values.row(0));
@@ -212,13 +213,13 @@ TEST(WindowRequest, MirroredTwiceIsItself) {
             request.controls[kVelocityFactors].values.row(2));
   EXPECT_EQ(other.controls[kVelocityFactors].requested,
             (std::vector{true, false, true, true, false}));
-  EXPECT_EQ(back.mask.joints, request.mask.joints);
+  EXPECT_EQ(back.target->mask.joints, request.target->mask.joints);
   EXPECT_EQ(back.controls[kVelocityFactors].values, request.controls[kVelocityFactors].values);
   EXPECT_EQ(back.controls[kRootPath].values, request.controls[kRootPath].values);
   EXPECT_EQ(*back.turn_to_key, *request.turn_to_key);
   EXPECT_EQ(back.stage->origin, request.stage->origin);
   EXPECT_EQ(back.stage->heading, request.stage->heading);
-  EXPECT_EQ(Apart(*back.key, *request.key), 0);
+  EXPECT_EQ(Apart(back.target->pose, request.target->pose), 0);
 }
 
 TEST(WindowFeatures, BeatsHaveAPhaseAndSlowOnesAreHalved) {

@@ -47,7 +47,7 @@ TEST(TurnPrior, SamplesEachDirectionByItsProbability) {
 
 TEST(TurnPrior, BendingIsNoSomersault) {
   WindowRequest request = To(0);
-  request.key->rotations.col(0) = Eigen::Vector3d(1.2, 0.1, 0);
+  request.target->pose.rotations.col(0) = Eigen::Vector3d(1.2, 0.1, 0);
   EXPECT_FALSE(GoesOn().Sample(Body(), request, 3, 1));
 }
 
@@ -55,10 +55,10 @@ TEST(TurnPrior, GivesNothingWithoutStatistics) {
   EXPECT_FALSE(TurnPrior().Sample(Body(), To(2), 0, 0));
   EXPECT_FALSE(GoesOn().Sample(Body(), To(0), 0, 0)) << "the axis of no turn is noise";
   WindowRequest open = To(2);
-  open.mask.joints.assign(24, true);
-  open.mask.joints[0] = false;
+  open.target->mask.joints.assign(24, true);
+  open.target->mask.joints[0] = false;
   EXPECT_FALSE(GoesOn().Sample(Body(), open, 0, 0));
-  open.key.reset();
+  open.target.reset();
   EXPECT_FALSE(GoesOn().Sample(Body(), open, 0, 0));
 }
 

@@ -21,9 +21,8 @@ inline Pose Facing(double yaw) {
 
 // A dancer who turns by `rate` a frame, and must face `yaw` after this many frames.
 inline WindowRequest To(double yaw, double rate = 0, int frames = 60) {
-  WindowRequest request{.frames = frames, .to_key = frames};
+  WindowRequest request{{.frames = frames, .target = Target{Facing(yaw), {}}}, frames};
   for (int i = 9; i >= 0; --i) request.history.push_back(Facing(-rate * i));
-  request.key = Facing(yaw);
   return request;
 }
 

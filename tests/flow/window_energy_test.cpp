@@ -162,8 +162,8 @@ TEST(FlowSampler, LaterWindowsStartFromTheFirstsEnergyShift) {
 TEST(FlowSampler, TheWayRoundToAKeyTellsNothingOfTheTrunksEnergy) {
   Scene scene = MakeScene(10);
   const Pose& last = scene.request.history.back();
-  scene.request.key = last;
-  scene.request.key->rotations.col(0) =
+  scene.request.target = Target{last, {}};
+  scene.request.target->pose.rotations.col(0) =
       LogMap(ExpMap(std::numbers::pi * 0.98 * UpOf(last)) * ExpMap(last.rotations.col(0)));
   FlowModelParts parts = Parts();
   parts.config.median_factors.fill(0.01);
@@ -200,21 +200,21 @@ TEST(KnownOfEnergy, ContainsTheDistanceToTheKey) {
   constexpr auto kTrunk = static_cast<int>(BodyPart::kTrunk);
   constexpr auto kLeftArm = static_cast<int>(BodyPart::kLeftArm);
   const std::vector<Pose> history(2, RestPose(skeleton));
-  WindowRequest request{.frames = 30, .history = history, .to_key = 30};
+  WindowRequest request{{.frames = 30, .history = history}, 30};
   EXPECT_FALSE(KnownOfEnergy(parts, request, FlowWindow(parts.prior, request)).way)
       << "there is no key";
-  request.key = RestPose(skeleton);
+  request.target = Target{RestPose(skeleton), {}};
   const EnergyPrior::Known still = KnownOfEnergy(parts, request, FlowWindow(parts.prior, request));
   ASSERT_TRUE(still.way && still.way_in_world);
 
-  request.key->root_position.x() += 3;
+  request.target->pose.root_position.x() += 3;
   const EnergyPrior::Known moved = KnownOfEnergy(parts, request, FlowWindow(parts.prior, request));
   EXPECT_EQ((*moved.way)[kLeftArm], (*still.way)[kLeftArm]);
   EXPECT_GT((*moved.way)[kTrunk], (*still.way)[kTrunk]);
   for (const double level : *moved.way_in_world)
     EXPECT_NEAR(level, std::log((0.1 + 1e-3) / 1e-3), 1e-9) << "ten centimetres a frame";
 
-  request.key->rotations(2, skeleton.left_shoulder) = 1;
+  request.target->pose.rotations(2, skeleton.left_shoulder) = 1;
   EXPECT_GT((*KnownOfEnergy(parts, request, FlowWindow(parts.prior, request)).way)[kLeftArm],
             (*still.way)[kLeftArm]);
 }
@@ -224,8 +224,8 @@ TEST(KnownOfEnergy, AStillHistoryIsTheCalmest) {
   FlowModelParts parts = Parts();
   parts.energy.least.segment<kBodyParts>(EnergyPrior::kHistoryInput).setConstant(-3);
   const std::vector<Pose> history(2, RestPose(parts.skeleton));
-  WindowRequest request{.frames = 30, .history = history, .to_key = 30};
-  request.key = RestPose(parts.skeleton);
+  WindowRequest request{{.frames = 30, .history = history}, 30};
+  request.target = Target{RestPose(parts.skeleton), {}};
   const auto known = KnownOfEnergy(parts, request, FlowWindow(parts.prior, request));
   EXPECT_TRUE((known.history.array() == -3).all()) << known.history.transpose();
 }
@@ -235,7 +235,7 @@ TEST(KnownOfEnergy, OmitsAKeyBeyondTheWindow) {
   const FlowModelParts parts = Parts();
   const std::vector<Pose> history(2, RestPose(parts.skeleton));
   WindowRequest request{
-      .frames = 30, .history = history, .key = RestPose(parts.skeleton), .to_key = 60};
+      {.frames = 30, .history = history, .target = Target{RestPose(parts.skeleton), {}}}, 60};
   const EnergyPrior::Known far = KnownOfEnergy(parts, request, FlowWindow(parts.prior, request));
   EXPECT_FALSE(far.key);
   EXPECT_FALSE(far.way);
@@ -247,16 +247,17 @@ TEST(KnownOfEnergy, OmitsDistancesThatTheMaskLeavesOpen) {
   const FlowModelParts parts = Parts();
   const Skeleton& skeleton = parts.skeleton;
   const std::vector<Pose> history(2, RestPose(skeleton));
-  WindowRequest request{.frames = 30, .history = history, .key = RestPose(skeleton), .to_key = 30};
-  request.mask.root_position = false;
+  WindowRequest request{
+      {.frames = 30, .history = history, .target = Target{RestPose(skeleton), {}}}, 30};
+  request.target->mask.root_position = false;
   EXPECT_TRUE(KnownOfEnergy(parts, request, FlowWindow(parts.prior, request)).way);
   EXPECT_FALSE(KnownOfEnergy(parts, request, FlowWindow(parts.prior, request)).way_in_world);
 
-  request.mask.joints.assign(static_cast<size_t>(skeleton.joints()), true);
-  request.mask.joints[static_cast<size_t>(skeleton.Find("left_wrist"))] = false;
+  request.target->mask.joints.assign(static_cast<size_t>(skeleton.joints()), true);
+  request.target->mask.joints[static_cast<size_t>(skeleton.Find("left_wrist"))] = false;
   EXPECT_TRUE(KnownOfEnergy(parts, request, FlowWindow(parts.prior, request)).way)
       << "a hand is nothing";
-  request.mask.joints[static_cast<size_t>(skeleton.Find("left_elbow"))] = false;
+  request.target->mask.joints[static_cast<size_t>(skeleton.Find("left_elbow"))] = false;
   EXPECT_FALSE(KnownOfEnergy(parts, request, FlowWindow(parts.prior, request)).way)
       << "a forearm is something";
 }

@@ -78,7 +78,7 @@ class FakeTransition {
     for (const double beat : spec_.beats)
       next[Width() - 1] += 0.01 * std::max(0.0, 1 - std::abs(beat - frame));
     if (spec_.style == "wild") next[Width() - 2] += 0.01;
-    next[Width() - 3] += 0.01 * spec_.energy.now + 0.003 * spec_.energy.before;
+    next[Width() - 3] += 0.01 * spec_.energy_shift.now + 0.003 * spec_.energy_shift.before;
     ApplyControls(frame, &next);
 
     Pose pose;

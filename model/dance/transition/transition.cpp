@@ -69,7 +69,7 @@ PreparedTransition PrepareTransition(const ModelInfo& model, const TransitionInp
   }
   spec.stage = before.stage;
   spec.music = std::move(music.rows);
-  spec.energy = music.energy;
+  spec.energy_shift = music.energy;
   spec.beats = BeatsAround(SecondsOf(music.beats), model.fps, segment.from, spec.frames);
   spec.seed = seed ^ music.id;
   spec.noise_like = noise_like;

@@ -85,7 +85,7 @@ WindowRequest WindowRequest::Part(int from, int count, std::span<const Pose> pos
   part.frames = count;
   part.history.clear();
   for (const Pose& pose : poses) part.history.push_back(ground.ToLocal(pose));
-  if (key) part.key = ground.ToLocal(*key);
+  if (target) part.target->pose = ground.ToLocal(target->pose);
   part.to_key = to_key - from;
   if (from > 0) {  // frames before this part already follow the request
     part.turn_to_key.reset();
@@ -101,9 +101,12 @@ WindowRequest WindowRequest::Part(int from, int count, std::span<const Pose> pos
 WindowRequest Mirror(const std::vector<int>& pairs, const WindowRequest& request) {
   WindowRequest mirrored = request;
   for (Pose& pose : mirrored.history) pose = Mirror(pairs, pose);
-  if (request.key) mirrored.key = Mirror(pairs, *request.key);
-  for (size_t joint = 0; joint < request.mask.joints.size(); ++joint)
-    mirrored.mask.joints[joint] = request.mask.joints[static_cast<size_t>(pairs[joint])];
+  if (request.target) {
+    mirrored.target->pose = Mirror(pairs, request.target->pose);
+    const std::vector<bool>& fixed = request.target->mask.joints;
+    for (size_t joint = 0; joint < fixed.size(); ++joint)
+      mirrored.target->mask.joints[joint] = fixed[static_cast<size_t>(pairs[joint])];
+  }
   // A mirrored rotation vector keeps the component across the mirror; a position flips only that.
   if (request.turn_to_key) mirrored.turn_to_key->tail<2>() *= -1;
   if (request.free_turn) *mirrored.free_turn *= -1;
@@ -165,7 +168,7 @@ FlowWindow::FlowWindow(const MotionPrior& prior, const WindowRequest& request) {
     history_.col(i) = Displacement(last, request.history[static_cast<size_t>(i)]);
   const Eigen::MatrixXd velocities = LastVelocities(prior, history_);
   velocity_ = velocities.col(0);
-  if (request.key) SetKey(prior, request);
+  if (request.target) SetKey(prior, request);
   SetMean(prior, request, velocities);
   if (request.FrontCounts() && prior.usual().facing > 0) FaceAudience(prior, request, velocities);
   SetEnergy(prior, request);
@@ -173,16 +176,17 @@ FlowWindow::FlowWindow(const MotionPrior& prior, const WindowRequest& request) {
 }
 
 void FlowWindow::SetKey(const MotionPrior& prior, const WindowRequest& request) {
-  const PoseMask& mask = request.mask;
-  keyed_[0] = keyed_[2] = mask.root_position;
-  keyed_[1] = mask.root_position || request.height;
-  displacement_ = Displacement(request.history.back(), *request.key);
+  const Target& key = *request.target;
+  keyed_[0] = keyed_[2] = key.mask.root_position;
+  keyed_[1] = key.mask.root_position || key.height;
+  displacement_ = Displacement(request.history.back(), key.pose);
   const Eigen::Vector3d ahead =
       std::min<double>(kTurnHorizon, request.to_key) * velocity_.segment<3>(3);
   displacement_.segment<3>(3) =
       NearerWayRound(displacement_.segment<3>(3), request.turn_to_key.value_or(ahead));
   const auto dimensions = static_cast<int>(displacement_.size());
-  for (int d = 3; d < dimensions; ++d) keyed_[static_cast<size_t>(d)] = mask.Constrains(d / 3 - 1);
+  for (int d = 3; d < dimensions; ++d)
+    keyed_[static_cast<size_t>(d)] = key.mask.Constrains(d / 3 - 1);
   for (int d = 0; d < dimensions; ++d) {
     if (!keyed_[static_cast<size_t>(d)]) displacement_[d] = 0;
   }
@@ -219,7 +223,7 @@ void FlowWindow::SetMean(const MotionPrior& prior, const WindowRequest& request,
     if (prior.Moves(d) && keyed) {
       squares += displacement_[d] * displacement_[d] / bridge.expected[MotionPrior::kPast];
       ++known;
-    } else if (prior.Moves(d) && !request.key) {
+    } else if (prior.Moves(d) && !request.target) {
       squares += velocities.row(d)
                      .transpose()
                      .cwiseAbs2()

@@ -9,37 +9,27 @@
 #include <vector>
 
 #include "model/flow/priors/motion_prior.h"
-#include "model/motion/controls/controls.h"
 #include "model/motion/kinematics/canonical.h"
 #include "model/motion/kinematics/mirror.h"
 #include "model/motion/motion.h"
 #include "model/motion/skeleton.h"
+#include "model/plan/motion_request.h"
 
 namespace choreo {
 
-/// A request for a window of frames, apart from noise. All poses are in the canonical frame of the
-/// last history pose (motion/kinematics/canonical.h). Empty fields are unknown.
-struct WindowRequest {
-  int frames = 0;                  ///< w >= 1
-  std::vector<Pose> history = {};  ///< tau poses, oldest first
-  /// The pose to reach, and which parts of it count; none: no key.
-  std::optional<Pose> key = {};
-  PoseMask mask = {};
-  bool height = false;  ///< whether the key's height counts if its position does not
-  int to_key = 0;       ///< N >= frames, frames from the history to the key, if any
+/// A request for a window of frames, apart from noise, in the canonical frame of the last history
+/// pose (motion/kinematics/canonical.h). Without a path the dancer returns to the stage's middle
+/// and faces its audience, unless a key fixes the root's position or rotation. A target's height is
+/// its pose's.
+struct WindowRequest : MotionRequest {
+  int to_key = 0;  ///< frames from the history to the target, if any, >= the window's
   /// The rotation vector by which the root turns to its key. None: what the history suggests.
   std::optional<Eigen::Vector3d> turn_to_key = {};
-  Controls controls = {};          ///< of its frames
-  std::vector<double> beats = {};  ///< in frames from the window's first, ascending, or empty
-  EnergyShift energy_shift = {};   ///< of the body parts without requested velocity factors
-  int style = -1;                  ///< index of a style, or -1
-  /// The middle of the dancer's floor, and the audience's direction. Without a path the dancer
-  /// returns to both, unless a key fixes the root's position or rotation.
-  std::optional<GroundFrame> stage = {};
   /// About how far the root turns about the vertical by the window's end, radians, if no key fixes
   /// the rotation. The dancer faces the audience by the whole turns nearest to this. None: what the
   /// history suggests.
   std::optional<double> free_turn = {};
+  int style = -1;  ///< index of a style, or -1
 
   /// The request for the frames [from, from + count) only, with `poses` as history. `ground`: the
   /// new canonical frame, in this request's frame.
@@ -47,10 +37,10 @@ struct WindowRequest {
                      const GroundFrame& ground) const;
   /// Whether the stage's middle counts, and whether its front does.
   bool StageCounts() const {
-    return stage && !controls[kRootPath].IsGiven() && !(key && mask.root_position);
+    return stage && !controls[kRootPath].IsGiven() && !(target && target->mask.root_position);
   }
   bool FrontCounts() const {
-    return stage && !controls[kRootPath].IsGiven() && !(key && mask.Constrains(0));
+    return stage && !controls[kRootPath].IsGiven() && !(target && target->mask.Constrains(0));
   }
 };
 

@@ -48,16 +48,19 @@ double EnergyOf(const Skeleton& skeleton, const std::vector<Pose>& history) {
 }  // namespace
 
 Eigen::Vector3d TurnPrior::ShorterTurn(const WindowRequest& request) {
-  return RotationDifference(request.history.back().rotations.col(0), request.key->rotations.col(0));
+  return RotationDifference(request.history.back().rotations.col(0),
+                            request.target->pose.rotations.col(0));
 }
 
 std::optional<TurnPrior::Inputs> TurnPrior::Describe(const Skeleton& skeleton,
                                                      const WindowRequest& request) {
-  if (!request.key || !request.mask.Constrains(0) || request.to_key < 1) return std::nullopt;
+  if (!request.target || !request.target->mask.Constrains(0) || request.to_key < 1)
+    return std::nullopt;
   const Eigen::Vector3d shorter = ShorterTurn(request), other = OtherWayRound(shorter);
   if (shorter == other) return std::nullopt;  // almost no turn
   const std::vector<Pose>& history = request.history;
-  const Pose &last = history.back(), &key = *request.key;
+  const Pose &last = history.back(), &key = request.target->pose;
+  const PoseMask& mask = request.target->mask;
   const Eigen::Vector3d up = UpOf(last);
   // The longer way about other axes would be a somersault.
   if (std::abs(shorter.dot(up)) < kUpright * shorter.norm()) return std::nullopt;
@@ -70,12 +73,12 @@ std::optional<TurnPrior::Inputs> TurnPrior::Describe(const Skeleton& skeleton,
   const double ahead = std::clamp(turns / kTurnFrames * kAheadFrames / std::numbers::pi, -1.0, 1.0);
   // The canonical frame is the last pose's, so x is sideways.
   const double goes = last.root_position.x() - before(kWayFrames).root_position.x();
-  const Eigen::Vector3d way = request.mask.root_position
+  const Eigen::Vector3d way = mask.root_position
                                   ? Eigen::Vector3d((key.root_position - last.root_position) *
                                                     kTypicalFrames / request.to_key)
                                   : Eigen::Vector3d::Zero();
   const double metres = std::min(kMaxDistance, std::hypot(way.x(), way.z()));
-  const double twist = request.mask.joints.empty() ? TwistOf(skeleton, key) : 0;
+  const double twist = mask.joints.empty() ? TwistOf(skeleton, key) : 0;
   const double energy = EnergyOf(skeleton, history);
   const auto describe = [&](const Eigen::Vector3d& turn) {
     const double far = turn.norm() / std::numbers::pi, about = turn.dot(up) / std::numbers::pi;

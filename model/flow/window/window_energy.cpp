@@ -32,7 +32,7 @@ EnergyPrior::Known KnownOfEnergy(const FlowModelParts& model, const WindowReques
     return EnergyLevel(factor, model.config.median_factors[part]);
   };
   // The motion to a key beyond the window does not predict the window's own energy.
-  EnergyPrior::Known known{.key = request.key && request.to_key == request.frames,
+  EnergyPrior::Known known{.key = request.target && request.to_key == request.frames,
                            .surprise = window.surprise(),
                            .frames = request.frames,
                            .style = request.style};
@@ -42,15 +42,15 @@ EnergyPrior::Known KnownOfEnergy(const FlowModelParts& model, const WindowReques
     known.history[row] = factors[part] > 0 ? level(part, factors[part])
                                            : model.energy.least[EnergyPrior::kHistoryInput + row];
   }
-  if (!known.key || !FixesLimbs(model.skeleton, request.mask)) return known;
+  if (!known.key || !FixesLimbs(model.skeleton, request.target->mask)) return known;
   const BodyPartWeights weights = WeighBodyParts(model.skeleton);
   const Eigen::Matrix3Xd from = JointPositions(model.skeleton, request.history.back());
-  const Pose key = Masked(*request.key, request.mask, request.history.back());
+  const Pose key = Masked(request.target->pose, request.target->mask, request.history.back());
   const Eigen::Matrix3Xd to = JointPositions(model.skeleton, key);
   const auto way = PartSpeeds(weights, from, to);
   const Eigen::VectorXd in_world = weights * (to - from).colwise().norm().transpose();
   known.way.emplace();
-  if (request.mask.root_position) known.way_in_world.emplace();
+  if (request.target->mask.root_position) known.way_in_world.emplace();
   for (size_t part = 0; part < way.size(); ++part) {
     const auto row = static_cast<Eigen::Index>(part);
     (*known.way)[row] = level(part, way[part] / request.to_key);

@@ -107,7 +107,7 @@ WindowFeatures DescribeWindow(const Skeleton& skeleton, const ContinuousFlowConf
           static_cast<float>(2 * std::log(beat->period / kTypicalBeat));
     }
     embedding.Fill(i, place(since));
-    if (request.key) embedding.Fill(request.to_key - 1 - i, place(left));
+    if (request.target) embedding.Fill(request.to_key - 1 - i, place(left));
     if (i < 0) continue;
     float* next = at.data() + kFirstControl;
     for (size_t control = 0; control < rows.size(); next += FeaturesOf(rows[control++])) {
@@ -133,8 +133,8 @@ WindowFeatures DescribeWindow(const Skeleton& skeleton, const ContinuousFlowConf
   for (int d = 0; d < dimensions; ++d) put(window.velocity()[d] / spread[d]);
   for (int d = 0; d < dimensions; ++d) put(window.displacement()[d]);
   for (int d = 0; d < dimensions; ++d) put(window.keyed()[static_cast<size_t>(d)] ? 1 : 0);
-  put(request.key ? 1 : 0);
-  if (request.key)
+  put(request.target ? 1 : 0);
+  if (request.target)
     embedding.Fill(8 * std::log2(request.to_key), {features.whole.data() + next, kTimeWidth});
   next += kTimeWidth;
   if (request.style >= 0) features.whole[next + request.style] = 1;

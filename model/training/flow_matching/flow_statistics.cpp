@@ -36,7 +36,7 @@ std::vector<EnergyWindow> GatherEnergies(const FlowModelParts& model,
                                          const std::vector<WindowRequest>& requests, bool keyed) {
   std::vector<EnergyWindow> windows;
   for (const WindowRequest& request : requests) {
-    if (request.key.has_value() != keyed) continue;
+    if (request.target.has_value() != keyed) continue;
     const auto levels = LevelsOf(request, model.config.median_factors);
     if (!std::ranges::all_of(levels, [](const auto& level) { return level.has_value(); })) continue;
     EnergyWindow& window = windows.emplace_back();

@@ -78,16 +78,18 @@ void BeginStanding(const Skeleton& skeleton, int tau, Random* random, std::vecto
 WindowRequest MakeRequest(std::span<const Pose> history, std::span<const Pose> way,
                           const GroundFrame& stage, const ClipTrack& track, int64_t first,
                           const WindowClips::Variation& variation, int frames, Random* random) {
-  WindowRequest request{.frames = frames, .to_key = static_cast<int>(way.size())};
-  request.history.assign(history.begin(), history.end());
-  if (!(random->Uniform() < variation.no_key)) request.key = way.back();
+  WindowRequest request{{.frames = frames, .history = {history.begin(), history.end()}},
+                        static_cast<int>(way.size())};
+  const bool keyed = !(random->Uniform() < variation.no_key);
+  Target key{way.back(), {}};
   if (random->Uniform() < variation.partial_key) {
     const double keep = random->Uniform(0.3, 1.0);
     for (Eigen::Index j = 0; j < way.front().rotations.cols(); ++j)
-      request.mask.joints.push_back(random->Uniform() < keep);
-    request.mask.root_position = random->Uniform() < keep;
-    request.height = random->Uniform() < 0.5;
+      key.mask.joints.push_back(random->Uniform() < keep);
+    key.mask.root_position = random->Uniform() < keep;
+    if (random->Uniform() < 0.5) key.height = key.pose.root_position.y();
   }
+  if (keyed) request.target = std::move(key);
   if (random->Uniform() < variation.beats)
     request.beats = BeatsFor(track, first, first + frames, random);
   if (random->Uniform() < variation.energy) {

@@ -58,7 +58,7 @@ NamedFigures CompareWindows(const FlowNetwork& network, const FlowModelParts& pa
       };
       std::vector<Pose> interpolated;
       for (int k = 1; k <= frames; ++k) {
-        interpolated.push_back(InterpolatePoses(request.history.back(), *request.key,
+        interpolated.push_back(InterpolatePoses(request.history.back(), request.target->pose,
                                                 static_cast<double>(k) / frames));
       }
       const std::vector<Pose> plan = sample(0, 0), one = sample(0, parts.config.temperature),
