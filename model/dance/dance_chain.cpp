@@ -206,13 +206,12 @@ void DanceChain::Proceed() {
   std::optional<DanceScore::Next> next = score_.TakeNext(jobs_.size(), Ready());
   if (!next) return;
   const int64_t from = next->segment.from;
-  TransitionInputs inputs{.manner = manner_,
-                          .seed = seed_,
+  TransitionInputs inputs{.spec = SpecOf(model_, manner_, seed_,
+                                         jobs_.empty() ? danced_ : jobs_.back()->StateBefore(from)),
                           .controls = score_.controls(),
                           .segment = std::move(next->segment),
-                          .before = jobs_.empty() ? danced_ : jobs_.back()->StateBefore(from),
-                          .noise_like = std::move(next->noise_like),
                           .music = std::move(next->music)};
+  inputs.spec.noise_like = std::move(next->noise_like);
   // A dance that waited for its client's messages is due from now on. With its old start time it
   // would overtake dances that did not wait.
   start_time_ = std::max(start_time_, PlaybackClock() - Seconds(from - first_frame_));

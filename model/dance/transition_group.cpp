@@ -118,22 +118,21 @@ class TransitionGroup::Impl::Candidate : public Job {
 
 void TransitionGroup::Impl::Begin() {
   segment_ = {request_.FirstFrame(), request_.FirstFrame() + request_.frames};
-  const auto& [from, end, key, stop, later] = segment_;
+  const int64_t from = segment_.from, end = segment_.to;
   if (const auto& target = request_.target)
     segment_.key = Key{request_.target_id, end - 1, target->pose, target->mask, request_.hit};
   const auto changes = controls_.Set(request_.controls, from, "controls");
   // All candidates have the same request, so it is checked once and its warnings are sent once.
   DanceMusic music(model_, request_, request_.Dynamics(), audio_.get(), /*detects=*/false);
-  auto [run, beats, warnings] = PrepareTransition(
-      model_, {.manner = request_,
-               .seed = request_.seed,
-               .controls = controls_,
-               .segment = segment_,
-               .before = {request_.Before(),
-                          request_.continuation ? request_.continuation->stage : std::nullopt},
-               .after = request_.after,
-               .noise_like = Recurrence(model_.fps, request_.music_passages).Origins(from, end),
-               .music = music.PlanFor(segment_, end)});
+  const auto stage = request_.continuation ? request_.continuation->stage : std::nullopt;
+  TransitionSpec spec = SpecOf(model_, request_, request_.seed, {request_.Before(), stage});
+  spec.after = request_.after;
+  spec.noise_like = Recurrence(model_.fps, request_.music_passages).Origins(from, end);
+  PreparedTransition prepared = PrepareTransition(model_, {.spec = std::move(spec),
+                                                           .controls = controls_,
+                                                           .segment = segment_,
+                                                           .music = music.PlanFor(segment_, end)});
+  std::vector<Warning>& warnings = prepared.warnings;
   for (const Warning& warning : controls_.BehindEnd(end)) warnings.push_back(warning);
   for (const auto& [label, changed] : changes) {
     if (changed.last < from) warnings.push_back(ControlsTooLate(label, changed.last, from));
@@ -142,9 +141,9 @@ void TransitionGroup::Impl::Begin() {
   for (const Warning& warning : warnings) Warn(warning);
   std::vector<std::shared_ptr<Candidate>> candidates;
   for (int number = 0; number < request_.candidates; ++number) {
-    run.set_candidate(static_cast<uint32_t>(number));
-    candidates.push_back(
-        std::make_shared<Candidate>(std::static_pointer_cast<Impl>(shared_from_this()), run));
+    prepared.run.set_candidate(static_cast<uint32_t>(number));
+    candidates.push_back(std::make_shared<Candidate>(
+        std::static_pointer_cast<Impl>(shared_from_this()), prepared.run));
   }
   try {
     for (auto& candidate : candidates) queue_.SubmitBulk(std::move(candidate));

@@ -45,10 +45,22 @@ void WarnOfPose(const Skeleton& skeleton, const TransitionSpec& spec, const std:
 
 }  // namespace
 
-PreparedTransition PrepareTransition(const ModelInfo& model, const TransitionInputs& inputs) {
-  const auto& [manner, seed, controls, segment, before, after, noise_like, planned] = inputs;
-  TransitionMusic music = planned.Hear();
+TransitionSpec SpecOf(const ModelInfo& model, const DanceManner& manner, uint64_t seed,
+                      DancedState before) {
   TransitionSpec spec;
+  spec.history = std::move(before.history);
+  spec.stage = before.stage;
+  spec.seed = seed;
+  spec.variation = manner.Variation();
+  spec.style = manner.style;
+  spec.temperature = static_cast<float>(manner.temperature.value_or(model.default_temperature));
+  return spec;
+}
+
+PreparedTransition PrepareTransition(const ModelInfo& model, const TransitionInputs& inputs) {
+  const Segment& segment = inputs.segment;
+  TransitionMusic music = inputs.music.Hear();
+  TransitionSpec spec = inputs.spec;
   spec.frames = static_cast<int>(segment.to - segment.from);
   spec.first_frame = segment.from;
   const std::string key_id = segment.key ? segment.key->id : "";
@@ -59,25 +71,17 @@ PreparedTransition PrepareTransition(const ModelInfo& model, const TransitionInp
     const Key& key = *segment.later;
     spec.later = {{key.pose, key.mask}, static_cast<int>(key.frame + 1 - segment.to)};
   }
-  spec.after = after;
-  if (before.history.empty()) {
-    const Pose stance =
-        controls.Stance(segment.from, spec.frames == 1 ? spec.target : std::nullopt);
-    spec.history = FillHistory(model, {&stance, 1});
-  } else {
-    spec.history = FillHistory(model, before.history);
+  if (spec.history.empty()) {
+    spec.history = {
+        inputs.controls.Stance(segment.from, spec.frames == 1 ? spec.target : std::nullopt)};
   }
-  spec.stage = before.stage;
+  spec.history = FillHistory(model, spec.history);
   spec.music = std::move(music.rows);
   spec.energy_shift = music.energy;
   spec.beats = BeatsAround(SecondsOf(music.beats), model.fps, segment.from, spec.frames);
-  spec.seed = seed ^ music.id;
-  spec.noise_like = noise_like;
-  spec.variation = manner.Variation();
-  spec.style = manner.style;
-  spec.temperature = static_cast<float>(manner.temperature.value_or(model.default_temperature));
+  spec.seed ^= music.id;
   std::vector<Warning> warnings;
-  controls.FillControls(key_id, &spec, &warnings);
+  inputs.controls.FillControls(key_id, &spec, &warnings);
   if (spec.target) WarnOfPose(model.skeleton, spec, key_id, &warnings);
   TransitionRun run(model, spec);
   if (const auto speed = run.required_speed(); speed && speed->TooFast()) {
@@ -168,13 +172,13 @@ Slices<ProcessedPlan> TransitionRun::DanceOnce(Sampler& sampler) const {
 }
 
 void TransitionRun::SetFrames(const ProcessedPlan& processed) {
-  const auto& [poses, contacts, log_likelihoods, resampled] = processed.plan;
+  const Plan& plan = processed.plan;
   const ControlCurve& factors = spec_->controls[kVelocityFactors];
   Pose before = before_.back();
-  for (size_t at = 0; at < poses.size(); ++at) {
-    before = RoundToFloat(KeepSigns(ground_.ToWorld(poses[at]), before));
-    DanceFrame& frame = frames_.emplace_back(DanceFrame{before, contacts[at]});
-    if (!log_likelihoods.empty()) frame.log_likelihood = log_likelihoods[at];
+  for (size_t at = 0; at < plan.poses.size(); ++at) {
+    before = RoundToFloat(KeepSigns(ground_.ToWorld(plan.poses[at]), before));
+    DanceFrame& frame = frames_.emplace_back(DanceFrame{before, plan.contacts[at]});
+    if (!plan.log_likelihoods.empty()) frame.log_likelihood = plan.log_likelihoods[at];
     if (factors.IsGiven()) {
       std::ranges::copy(factors.values.col(static_cast<Eigen::Index>(at)).cast<float>(),
                         frame.asked_speeds.emplace().begin());

@@ -40,16 +40,17 @@ struct DancedState {
 
 /// All inputs of a dance's transition. They are values, so later messages do not change them.
 struct TransitionInputs {
-  DanceManner manner = {};
-  uint64_t seed = 0;  ///< the dance's; PrepareTransition XORs it with TransitionMusic::id
+  /// What depends on no key, control or music (SpecOf). Without a history the transition starts
+  /// from ControlTrack::Stance. PrepareTransition XORs the seed with TransitionMusic::id.
+  TransitionSpec spec = {};
   ControlTrack controls;
   Segment segment;
-  /// The state before the transition. Without poses it starts from ControlTrack::Stance.
-  DancedState before = {};
-  std::optional<Pose> after = {};        ///< TransitionSpec::after
-  std::vector<int64_t> noise_like = {};  ///< TransitionSpec::noise_like
   PlannedMusic music = {};
 };
+
+/// The part of a transition's spec that a dance's settings and the state before it give.
+TransitionSpec SpecOf(const ModelInfo& model, const DanceManner& manner, uint64_t seed,
+                      DancedState before);
 
 /// Generates one transition slice by slice: samples and processes a plan (plan/process_plan.h). A
 /// pure function of the spec and the model. Streams, single transitions and evaluation

@@ -133,10 +133,9 @@ TEST_F(DanceScoreTest, LaterMessagesChangeNothingOfATransition) {
   ASSERT_TRUE(score.TakeNext(0, feed.ready()));
   const auto next = score.TakeNext(1, feed.ready());
   ASSERT_TRUE(next);
-  const TransitionInputs inputs{.controls = score.controls(),
-                                .segment = next->segment,
-                                .noise_like = next->noise_like,
-                                .music = next->music};
+  TransitionInputs inputs{
+      .controls = score.controls(), .segment = next->segment, .music = next->music};
+  inputs.spec.noise_like = next->noise_like;
   const auto prepare = [&] { return PrepareTransition(model, inputs).run.spec(); };
   const TransitionSpec before = prepare();
   score.GiveBeats({14.1, 14.7, 15.3}, {}, {});
