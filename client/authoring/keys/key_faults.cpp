@@ -17,8 +17,6 @@
 namespace choreo::authoring {
 namespace {
 
-constexpr double kJump = 0.1;  // metres: a jump's least height above the floor
-
 /// How far a pose is above where it would stand, metres; none if that is unknown.
 std::optional<double> InAir(const Pose& pose, const PoseMask& mask, const Skeleton& skeleton) {
   const std::optional<double> standing = StandingHeight(skeleton, pose, mask);
@@ -32,7 +30,7 @@ std::string LostJump(const client::KeyPose& key, const Skeleton& skeleton) {
   const double height = key.pose.root_position.y();
   if (key.mask.root_position || height == skeleton.pelvis_height) return "";
   const std::optional<double> in_air = InAir(key.pose, key.mask, skeleton);
-  if (!in_air || *in_air < kJump) return "";
+  if (!in_air || *in_air <= kInAir) return "";
   return "the pose is " + Rounded(*in_air) +
          " m in the air, but without a place it stands on the floor; give it one: \"place\": [x, "
          "z]";
@@ -42,7 +40,7 @@ std::string LostJump(const client::KeyPose& key, const Skeleton& skeleton) {
 double JumpHeight(const TimedPose& one, const Skeleton& skeleton) {
   const double in_air =
       one.mask.root_position ? InAir(one.pose, one.mask, skeleton).value_or(0) : 0;
-  return in_air < kJump ? 0 : in_air;
+  return in_air <= kInAir ? 0 : in_air;
 }
 
 bool IsOnFloor(const TimedPose& one, const Skeleton& skeleton) {

@@ -12,6 +12,8 @@
 namespace choreo {
 
 inline constexpr double kMaxJumpHeight = 1.2;  ///< metres from the floor to the feet
+/// Metres above the floor from which a body is in the air. Less may be tiptoe.
+inline constexpr double kInAir = 0.15;
 
 /// The faults of one pose within `mask`: "left_foot is 12 cm under the floor", "the body hangs 1.5
 /// m above the floor", "right_knee bends 40 degrees backwards, further than 15".

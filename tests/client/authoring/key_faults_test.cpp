@@ -85,6 +85,17 @@ TEST(KeyFaultsTest, AJumpWithoutAPlaceIsWarnedOf) {
   EXPECT_TRUE(faults(R"("joints": {"left_knee": 90})").empty());
 }
 
+// As in motion/pose/pose_faults.h.
+TEST(KeyFaultsTest, TiptoeIsNoJump) {
+  client::KeyPose key{.id = "up", .time_s = 1, .pose = RestPose(Body())};
+  key.mask.root_position = false;
+  key.pose.root_position.y() += 0.12;
+  const auto count = [&] { return KeyFaults(std::vector{key}, 30, Body()).size(); };
+  EXPECT_EQ(count(), 0U);
+  key.pose.root_position.y() += 0.1;
+  EXPECT_EQ(count(), 1U);
+}
+
 /// The faults of keys of the library's poses, each at its time, with or without a place.
 std::vector<client::Warning> FaultsOf(const std::string& keys) {
   DanceKeys read;
