@@ -8,6 +8,7 @@
 #include "client/authoring/keys/pose_library.h"
 #include "client/convert.h"
 #include "model/core/files/atomic_file.h"
+#include "model/core/files/small_extension.h"
 #include "model/formats/motion_file.h"
 #include "studio/from_page.h"
 #include "studio/scratch_folder.h"

@@ -5,6 +5,7 @@
 
 #include "client/authoring/project/formation.h"
 #include "model/core/files/atomic_file.h"
+#include "model/core/files/small_extension.h"
 #include "model/formats/gltf/gltf.h"
 #include "model/formats/motion_file.h"
 #include "studio/from_page.h"

@@ -9,7 +9,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cerrno>
 #include <cstring>
 #include <functional>
@@ -18,6 +17,7 @@
 #include <vector>
 
 #include "model/core/error.h"
+#include "model/core/files/small_extension.h"
 #include "model/core/joined.h"
 #include "model/draw/check_within.h"
 
@@ -54,9 +54,7 @@ const FileKind& KindOf(const std::filesystem::path& video) {
        {"-c:a", "libopus", "-b:a", "160k"},
        {"-c:v", "libvpx-vp9", "-deadline", "good", "-cpu-used", "5", "-row-mt", "1", "-crf", "28",
         "-b:v", "0", "-f", "webm"}}};
-  std::string extension = video.extension().string();
-  std::ranges::transform(extension, extension.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string extension = SmallExtension(video);
   for (const FileKind& kind : kKinds)
     if (extension == kind.extension) return kind;
   throw InvalidArgument(video.string(),

@@ -1,7 +1,6 @@
 #include "model/formats/motion_file.h"
 
 #include <algorithm>
-#include <boost/algorithm/string/case_conv.hpp>
 #include <iterator>
 #include <new>
 #include <utility>
@@ -9,6 +8,7 @@
 #include "model/core/error.h"
 #include "model/core/files/atomic_file.h"
 #include "model/core/files/npy.h"
+#include "model/core/files/small_extension.h"
 #include "model/core/grid.h"
 #include "model/fit/retarget.h"
 #include "model/formats/arrays/amass_npz.h"
@@ -200,10 +200,6 @@ SkeletonMotion Read(const std::filesystem::path& path, const Skeleton* preferred
 }
 
 }  // namespace
-
-std::string SmallExtension(const std::filesystem::path& path) {
-  return boost::algorithm::to_lower_copy(path.extension().string(), std::locale::classic());
-}
 
 std::string MotionFileExtensions() { return Extensions(false); }
 

@@ -13,9 +13,6 @@
 
 namespace choreo {
 
-/// A path's extension in lower case: ".npz" for "DANCE.NPZ".
-std::string SmallExtension(const std::filesystem::path& path);
-
 /// Whether a path has the extension of a readable motion format, in any case: `.npz` (amass_npz.h),
 /// `.bvh` (bvh.h), `.glb` and `.vrma` (gltf.h), or `.pkl` (pickle.h, with the layouts of
 /// amass_npz.h), which can only be read.

@@ -8,10 +8,10 @@
 
 #include "client/authoring/fields/json_fields.h"
 #include "model/core/error.h"
+#include "model/core/files/small_extension.h"
 #include "model/fit/mediapipe_source.h"
 #include "model/fit/retarget.h"
 #include "model/formats/containers/npz.h"
-#include "model/formats/motion_file.h"
 #include "model/motion/floor/floor_clearance.h"
 #include "model/motion/kinematics/kinematics.h"
 #include "model/motion/pose/pose_limits.h"

@@ -12,6 +12,7 @@
 #include "client/cli/options/options.h"
 #include "client/cli/options/output_file.h"
 #include "model/core/error.h"
+#include "model/core/files/small_extension.h"
 #include "model/fit/retarget.h"
 #include "model/formats/arrays/own_arrays.h"
 #include "model/formats/gltf/gltf.h"

@@ -13,10 +13,10 @@
 #include "client/cli/report/report.h"
 #include "client/cli/report/report_controls.h"
 #include "model/core/files/atomic_file.h"
+#include "model/core/files/small_extension.h"
 #include "model/core/joined.h"
 #include "model/core/rounded.h"
 #include "model/formats/gltf/gltf.h"
-#include "model/formats/motion_file.h"
 #include "model/motion/rotation.h"
 
 namespace choreo::cli {

@@ -11,10 +11,9 @@
 #include "client/authoring/project/project_file.h"
 #include "model/core/error.h"
 #include "model/core/files/atomic_file.h"
+#include "model/core/files/small_extension.h"
 #include "model/core/grid.h"
 #include "model/core/rounded.h"
-#include "model/core/text/nearest.h"
-#include "model/formats/motion_file.h"
 
 namespace choreo::cli {
 namespace {

@@ -1,6 +1,7 @@
 #include "client/cli/options/bvh_options.h"
 
 #include "model/core/error.h"
+#include "model/core/files/small_extension.h"
 #include "model/formats/bvh/bvh.h"
 #include "model/formats/motion_file.h"
 

@@ -8,11 +8,10 @@
 #include "client/cli/options/options.h"
 #include "client/cli/report/report_file.h"
 #include "model/core/error.h"
+#include "model/core/files/small_extension.h"
 #include "model/fit/bones/finger_bones.h"
-#include "model/fit/bones/transfer.h"
 #include "model/fit/retarget.h"
 #include "model/formats/gltf/character_file.h"
-#include "model/formats/motion_file.h"
 
 namespace choreo::cli {
 void CharacterOptions::AddTo(CLI::App& command) {

@@ -8,8 +8,8 @@
 
 #include "model/core/error.h"
 #include "model/core/files/atomic_file.h"
+#include "model/core/files/small_extension.h"
 #include "model/core/joined.h"
-#include "model/formats/motion_file.h"
 
 namespace choreo::cli {
 namespace {

@@ -5,6 +5,7 @@
 
 #include "client/authoring/keys/motion_input.h"
 #include "model/core/error.h"
+#include "model/core/files/small_extension.h"
 #include "model/formats/containers/npz.h"
 
 namespace choreo::cli {
