@@ -26,7 +26,7 @@ MovingBody::MovingBody(const Skeleton& skeleton, const Motion& motion) {
     Frame& frame = frames_.emplace_back();
     frame.middle = pose.root_position.cast<float>();
     frame.radius = 0;
-    for (const PlacedPart& part : BuildFigure(skeleton, pose)) {
+    for (const PlacedPart& part : BuildDoll(skeleton, pose)) {
       const BoundedCone& cone = frame.parts.emplace_back(part.shape);
       frame.radius = std::max(frame.radius, (cone.middle - frame.middle).norm() + cone.radius);
     }

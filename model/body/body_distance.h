@@ -13,7 +13,7 @@ namespace choreo {
 /// A moving body (doll.h), prepared for LeastDistance. Immutable.
 class MovingBody {
  public:
-  /// Throws like BuildFigure.
+  /// Throws like BuildDoll.
   MovingBody(const Skeleton& skeleton, const Motion& motion);
 
   int64_t frames() const { return std::ssize(frames_); }

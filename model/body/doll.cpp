@@ -178,13 +178,13 @@ std::vector<PlacedPart> PlaceDoll(const std::vector<DollPart>& doll,
   return parts;
 }
 
-std::vector<PlacedPart> BuildFigure(const Skeleton& skeleton, const Pose& pose) {
+std::vector<PlacedPart> BuildDoll(const Skeleton& skeleton, const Pose& pose) {
   return PlaceDoll(MakeDoll(skeleton), ForwardKinematics(skeleton, pose));
 }
 
 double DollAboveFloor(const Skeleton& skeleton, const Pose& pose) {
-  return LowestPoint(BuildFigure(skeleton, pose)) -
-         LowestPoint(BuildFigure(skeleton, RestPose(skeleton)));
+  return LowestPoint(BuildDoll(skeleton, pose)) -
+         LowestPoint(BuildDoll(skeleton, RestPose(skeleton)));
 }
 
 std::vector<const PlacedPart*> SkinAround(const std::vector<PlacedPart>& parts, size_t index) {

@@ -50,10 +50,10 @@ std::vector<PlacedPart> PlaceDoll(const std::vector<DollPart>& doll,
 
 /// The doll of a skeleton in a pose. Throws Error(kInvalidArgument) if the pose's joint count is
 /// not the skeleton's.
-std::vector<PlacedPart> BuildFigure(const Skeleton& skeleton, const Pose& pose);
+std::vector<PlacedPart> BuildDoll(const Skeleton& skeleton, const Pose& pose);
 
 /// The doll's height above the floor, metres: 0 if it touches the floor as at rest, negative if it
-/// sinks in. Throws what BuildFigure throws.
+/// sinks in. Throws what BuildDoll throws.
 double DollAboveFloor(const Skeleton& skeleton, const Pose& pose);
 
 /// The parts that may form one piece of skin with part `index`: they have its colour and may meet

@@ -191,11 +191,11 @@ std::vector<SheetFrame> ChooseSheetFrames(int64_t total, const ContactSheetOptio
   return frames;
 }
 
-void DrawContactSheet(const Stage& stage, const ContactSheetOptions& options,
+void DrawContactSheet(const Scene& scene, const ContactSheetOptions& options,
                       const std::filesystem::path& png) {
-  CheckStage(stage);
-  const int64_t frames = CountFrames(stage);
-  const double fps = stage.front().motion.fps;
+  CheckScene(scene);
+  const int64_t frames = CountFrames(scene);
+  const double fps = scene.front().motion.fps;
   const bool captioned = !options.captions.empty();
   if (captioned && std::ssize(options.captions) != frames) {
     throw InvalidArgument("options.captions", std::to_string(options.captions.size()) +
@@ -216,13 +216,12 @@ void DrawContactSheet(const Stage& stage, const ContactSheetOptions& options,
   heading.Draw(canvas, options.title, wraps);
 
   Picture picture{.width = options.tile_width, .height = options.tile_height, .rgb = {}};
-  std::vector<FramedStage> framed;
-  for (const SheetFrame& one : shown) framed.push_back({one.frame, MiddleOf(stage, one.frame)});
+  std::vector<FramedScene> framed;
+  for (const SheetFrame& one : shown) framed.push_back({one.frame, MiddleOf(scene, one.frame)});
   const std::vector<View> views = ViewsOf(
-      stage, framed, static_cast<double>(options.tile_width) / options.tile_height, options.side);
+      scene, framed, static_cast<double>(options.tile_width) / options.tile_height, options.side);
   for (size_t i = 0; i < shown.size(); ++i) {
-    DrawFrame(FiguresAt(stage, shown[i].frame), views[i], shown[i].key ? kKeyPose : kPlain,
-              picture);
+    DrawFrame(DollsAt(scene, shown[i].frame), views[i], shown[i].key ? kKeyPose : kPlain, picture);
     const int column = static_cast<int>(i) % columns, row = static_cast<int>(i) / columns;
     const int64_t since = options.rows_apart ? shown[i - static_cast<size_t>(column)].frame : 0;
     const std::string caption =

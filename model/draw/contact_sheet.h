@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "model/draw/render.h"
-#include "model/draw/stage.h"
+#include "model/draw/scene.h"
 
 namespace choreo {
 
@@ -35,13 +35,13 @@ struct ContactSheetOptions {
   double first_s = 0;  ///< the time of the first frame, seconds
 };
 
-/// Draws dancers (stage.h) into a PNG as rows of frames, time running from left to right. The
+/// Draws dancers (scene.h) into a PNG as rows of frames, time running from left to right. The
 /// camera moves with the dancers over a fixed floor grid. The heading says how many frames a second
-/// are shown. Throws what CheckStage and ViewsOf throw;
+/// are shown. Throws what CheckScene and ViewsOf throw;
 /// Error(kInvalidArgument) for a key frame outside the motion, a caption count other than the frame
 /// count, or sizes outside their limits; Error(kInternal) if the file cannot be written.
 /// Thread-safe.
-void DrawContactSheet(const Stage& stage, const ContactSheetOptions& options,
+void DrawContactSheet(const Scene& scene, const ContactSheetOptions& options,
                       const std::filesystem::path& png);
 
 /// A frame that a sheet shows.

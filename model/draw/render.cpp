@@ -11,7 +11,7 @@
 #include "model/body/doll.h"
 #include "model/core/error.h"
 #include "model/draw/check_within.h"
-#include "model/draw/figure_light.h"
+#include "model/draw/doll_light.h"
 #include "model/draw/floor.h"
 #include "model/draw/floor_light.h"
 #include "model/draw/tone.h"
@@ -26,9 +26,9 @@ constexpr int kMaxSamples = 8;        // per side of a pixel
 constexpr int kAlike =
     6;  // of 255: a pixel of one part between two pixels this alike becomes their mean
 
-std::vector<BoundedCone> Bound(const std::vector<PlacedPart>& figure) {
+std::vector<BoundedCone> Bound(const std::vector<PlacedPart>& doll) {
   std::vector<BoundedCone> parts;
-  for (const PlacedPart& part : figure) parts.emplace_back(part.shape);
+  for (const PlacedPart& part : doll) parts.emplace_back(part.shape);
   return parts;
 }
 
@@ -51,16 +51,16 @@ using SeenRow = std::vector<Seen>;
 
 class Renderer {
  public:
-  Renderer(const std::vector<PlacedPart>& figure, const View& view, const FrameStyle& style,
+  Renderer(const std::vector<PlacedPart>& doll, const View& view, const FrameStyle& style,
            Picture& picture)
       : picture_(picture),
-        parts_(Bound(figure)),
+        parts_(Bound(doll)),
         camera_(view, picture.width, picture.height),
         samples_(style.samples),
         floor_light_(parts_, LampDirection(view.azimuth), kLampSpread),
         floor_(view, camera_, floor_light_, picture.width, picture.height, Linear(style.floor),
                Linear(style.background)),
-        figure_light_(figure, parts_, LampDirection(view.azimuth)) {
+        doll_light_(doll, parts_, LampDirection(view.azimuth)) {
     const Eigen::Vector2i size(picture.width, picture.height);
     box_ = {size, Eigen::Vector2i::Zero()};
     for (const BoundedCone& part : parts_) {
@@ -204,7 +204,7 @@ class Renderer {
     const auto part = static_cast<size_t>(seen.part[lane]);
     const Vector3f ray = camera_.Ray(pixel);
     const Vector3f point = camera_.eye() + seen.distance[lane] * ray;
-    return figure_light_.At(part, point, NormalAt(parts_[part].shape, point), ray);
+    return doll_light_.At(part, point, NormalAt(parts_[part].shape, point), ray);
   }
 
   Picture& picture_;
@@ -216,7 +216,7 @@ class Renderer {
   int samples_;
   FloorLight floor_light_;
   Floor floor_;
-  FigureLight figure_light_;
+  DollLight doll_light_;
   Tone tone_;
   std::vector<Eigen::AlignedBox2i> boxes_;  // per part, pixels
   Eigen::AlignedBox2i box_;                 // of all of them
@@ -230,13 +230,13 @@ void DrawFrame(const Skeleton& skeleton, const Pose& pose, const View& view,
   if (!pose.root_position.allFinite() || !pose.rotations.allFinite()) {
     throw InvalidArgument("pose", "holds values that are not finite");
   }
-  DrawFrame(BuildFigure(skeleton, pose), view, style, picture);
+  DrawFrame(BuildDoll(skeleton, pose), view, style, picture);
 }
 
-void DrawFrame(const std::vector<PlacedPart>& figures, const View& view, const FrameStyle& style,
+void DrawFrame(const std::vector<PlacedPart>& dolls, const View& view, const FrameStyle& style,
                Picture& picture) {
   CheckWithin("style.samples", style.samples, 1, kMaxSamples);
-  Renderer(figures, view, style, picture).Render();
+  Renderer(dolls, view, style, picture).Render();
 }
 
 }  // namespace choreo

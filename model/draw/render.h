@@ -27,8 +27,8 @@ inline constexpr Colour kKeyColour = Colour::Hex(0xd99a00);
 /// or a pose with another joint count or values that are not finite. Thread-safe.
 void DrawFrame(const Skeleton& skeleton, const Pose& pose, const View& view,
                const FrameStyle& style, Picture& picture);
-/// The same for several bodies, given by the parts of their dolls (BuildFigure).
-void DrawFrame(const std::vector<PlacedPart>& figures, const View& view, const FrameStyle& style,
+/// The same for several bodies, given by the parts of their dolls (BuildDoll).
+void DrawFrame(const std::vector<PlacedPart>& dolls, const View& view, const FrameStyle& style,
                Picture& picture);
 
 }  // namespace choreo

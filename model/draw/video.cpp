@@ -21,14 +21,14 @@ constexpr int kSamples = 2;        // the encoder would blur more
 
 // The camera's path over the floor: the dancers' middle, smoothed by a Gaussian, whose window
 // reaches as far ahead as back.
-std::vector<FramedStage> Follow(const Stage& stage) {
-  const double sigma = kCameraLag * stage.front().motion.fps;
+std::vector<FramedScene> Follow(const Scene& scene) {
+  const double sigma = kCameraLag * scene.front().motion.fps;
   const auto reach = static_cast<int64_t>(std::ceil(3 * sigma));
-  const int64_t frames = CountFrames(stage);
+  const int64_t frames = CountFrames(scene);
   const auto place = [&](int64_t frame) {
-    return MiddleOf(stage, std::clamp<int64_t>(frame, 0, frames - 1));
+    return MiddleOf(scene, std::clamp<int64_t>(frame, 0, frames - 1));
   };
-  std::vector<FramedStage> framed;
+  std::vector<FramedScene> framed;
   for (int64_t frame = 0; frame < frames; ++frame) {
     framed.push_back({frame, GaussianMean<Eigen::Vector2d>(frame - reach, frame + reach, frame,
                                                            sigma, Eigen::Vector2d::Zero(), place)});
@@ -65,25 +65,25 @@ void DrawKeyFrame(double amount, Picture* picture) {
 
 }  // namespace
 
-std::vector<View> VideoViews(const Stage& stage, double aspect, std::optional<CameraSide> side) {
-  return ViewsOf(stage, Follow(stage), aspect, side);
+std::vector<View> VideoViews(const Scene& scene, double aspect, std::optional<CameraSide> side) {
+  return ViewsOf(scene, Follow(scene), aspect, side);
 }
 
-void DrawVideo(const Stage& source, const VideoOptions& options,
+void DrawVideo(const Scene& source, const VideoOptions& options,
                const std::filesystem::path& video) {
-  CheckStage(source);
+  CheckScene(source);
   const VideoFormat& format = options.format;
-  Stage stage = source;
-  for (SkeletonMotion& dancer : stage) {
+  Scene scene = source;
+  for (SkeletonMotion& dancer : scene) {
     if (dancer.motion.fps != format.fps) dancer.motion = Resample(dancer.motion, format.fps);
   }
-  const int64_t frames = CountFrames(stage);
+  const int64_t frames = CountFrames(scene);
   const std::vector<View> views =
-      VideoViews(stage, static_cast<double>(format.width) / format.height, options.side);
+      VideoViews(scene, static_cast<double>(format.width) / format.height, options.side);
   VideoEncoder encoder(video, format, frames);
   const auto draw = [&](int64_t frame) {
     Picture picture{.width = format.width, .height = format.height, .rgb = {}};
-    DrawFrame(FiguresAt(stage, frame), views[static_cast<size_t>(frame)], {.samples = kSamples},
+    DrawFrame(DollsAt(scene, frame), views[static_cast<size_t>(frame)], {.samples = kSamples},
               picture);
     const double glow = Glow(static_cast<double>(frame) / format.fps, options.keys);
     if (glow > 0.01) DrawKeyFrame(glow, &picture);

@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "model/draw/stage.h"
+#include "model/draw/scene.h"
 #include "model/draw/video_encoder.h"
 #include "model/draw/view.h"
 
@@ -22,13 +22,13 @@ struct VideoOptions {
   std::function<void(int64_t frames)> on_frame;
 };
 
-/// Draws dancers (stage.h) as a video with music. The camera follows them smoothly. Interpolates if
+/// Draws dancers (scene.h) as a video with music. The camera follows them smoothly. Interpolates if
 /// the rate differs from the motions'. Uses all cores; the result does not depend on their number.
-/// Throws what VideoEncoder, CheckStage and ViewsOf throw. Thread-safe.
-void DrawVideo(const Stage& stage, const VideoOptions& options, const std::filesystem::path& video);
+/// Throws what VideoEncoder, CheckScene and ViewsOf throw. Thread-safe.
+void DrawVideo(const Scene& scene, const VideoOptions& options, const std::filesystem::path& video);
 
 /// The camera's views, one per frame.
-std::vector<View> VideoViews(const Stage& stage, double aspect,
+std::vector<View> VideoViews(const Scene& scene, double aspect,
                              std::optional<CameraSide> side = {});
 
 }  // namespace choreo

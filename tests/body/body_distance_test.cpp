@@ -17,7 +17,7 @@ Motion Standing(size_t frames) {
 /// How far the body reaches to a side, metres.
 double Reach(double side) {
   double reach = 0;
-  for (const PlacedPart& part : BuildFigure(kSmpl, RestPose(kSmpl))) {
+  for (const PlacedPart& part : BuildDoll(kSmpl, RestPose(kSmpl))) {
     reach = std::max({reach, side * part.shape.a.x() + part.shape.radius_a,
                       side * part.shape.b.x() + part.shape.radius_b});
   }

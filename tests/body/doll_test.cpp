@@ -13,7 +13,7 @@ TEST(Doll, EveryLeftLimbHasARightOneOfItsSize) {
   const Skeleton skeleton = fixtures::SymmetricSmpl();
   const Eigen::Vector3f mirror(-1, 1, 1);
   int left = 0, right = 0;
-  const std::vector<PlacedPart> parts = BuildFigure(skeleton, RestPose(skeleton));
+  const std::vector<PlacedPart> parts = BuildDoll(skeleton, RestPose(skeleton));
   for (const PlacedPart& part : parts) {
     right += part.colour == kRightColour;
     if (!(part.colour == kLeftColour)) continue;
@@ -31,7 +31,7 @@ TEST(Doll, EveryLeftLimbHasARightOneOfItsSize) {
 
 TEST(Doll, StandsOnTheFloorAtRest) {
   float lowest = 1, highest = 0;
-  for (const PlacedPart& part : BuildFigure(kSmpl, RestPose(kSmpl))) {
+  for (const PlacedPart& part : BuildDoll(kSmpl, RestPose(kSmpl))) {
     lowest = std::min(
         {lowest, part.shape.a.y() - part.shape.radius_a, part.shape.b.y() - part.shape.radius_b});
     highest = std::max(
@@ -43,7 +43,7 @@ TEST(Doll, StandsOnTheFloorAtRest) {
 
 TEST(Doll, ABodyThatIsNotSmplsHasATrunkAndAHead) {
   const Skeleton& native = testing_support::Native().skeleton;
-  const std::vector<PlacedPart> parts = BuildFigure(native, RestPose(native));
+  const std::vector<PlacedPart> parts = BuildDoll(native, RestPose(native));
   // A capsule a bone, one across the hips, one across the shoulders, and the head.
   EXPECT_GT(std::ssize(parts), native.joints() - 1 + 2);
   double top = 0, thickest = 0, thinnest = 1;

@@ -34,7 +34,7 @@ float Distance(const std::vector<PlacedPart>& parts, const Colour& colour, const
 }
 
 TEST(Skin, AtRestIsTheDoll) {
-  const std::vector<PlacedPart> parts = BuildFigure(kSmpl, RestPose(kSmpl));
+  const std::vector<PlacedPart> parts = BuildDoll(kSmpl, RestPose(kSmpl));
   const std::vector<SkinPatch> skin = MakeSkin(kSmpl);
   EXPECT_EQ(skin.size(), 5u);  // left, right, trunk, skin, hair
   for (const SkinPatch& patch : skin) {
@@ -81,7 +81,7 @@ TEST(Skin, StaysOnTheDollWhenTheBodyBends) {
     for (const char* joint : {"spine1", "spine2", "spine3", "neck", "left_collar", "right_collar"})
       pose.rotations.col(kSmpl.Find(joint)) *= 0.3;
     const JointPlacement now = ForwardKinematics(kSmpl, pose);
-    const std::vector<PlacedPart> parts = BuildFigure(kSmpl, pose);
+    const std::vector<PlacedPart> parts = BuildDoll(kSmpl, pose);
     for (const SkinPatch& patch : skin) {
       const bool limb = patch.colour == kLeftColour || patch.colour == kRightColour;
       for (size_t v = 0; v < patch.positions.size(); v += 11) {

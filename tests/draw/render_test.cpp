@@ -122,7 +122,7 @@ TEST(Render, OtherSkeletonsAreSticks) {
   Pose pose;
   pose.root_position.y() = 1;
   pose.rotations.setZero(3, 3);
-  EXPECT_EQ(BuildFigure(chain, pose).size(), 2u);
+  EXPECT_EQ(BuildDoll(chain, pose).size(), 2u);
   Picture picture{.width = 120, .height = 150, .rgb = {}};
   DrawFrame(chain, pose, FollowView(pose, 0), {}, picture);
   EXPECT_GT(Find(picture, true).x, Find(picture, false).x + 10);

@@ -83,7 +83,7 @@ authoring::Counts CountsFor(const RenderOptions& options, const DanceSettings& s
 }
 
 /// Keeps only the part between --from and --until, with its keys and its part of the song.
-void Cut(const DanceSettings& settings, RenderOptions* options, Stage* stage,
+void Cut(const DanceSettings& settings, RenderOptions* options, Scene* scene,
          std::vector<DrawnKey>* keys) {
   if (options->from.empty() && options->until.empty()) return;
   const authoring::Counts counts = CountsFor(*options, settings);
@@ -92,8 +92,8 @@ void Cut(const DanceSettings& settings, RenderOptions* options, Stage* stage,
   };
   if (!options->from.empty() && !options->until.empty())
     RequireBefore(second("--from", options->from), second("--until", options->until));
-  const double fps = stage->front().motion.fps;
-  const int64_t total = CountFrames(*stage);
+  const double fps = scene->front().motion.fps;
+  const int64_t total = CountFrames(*scene);
   const double ends_s = static_cast<double>(total) / fps;
   const int64_t first =
       options->from.empty() ? 0 : FirstFrameFrom(second("--from", options->from), fps);
@@ -108,7 +108,7 @@ void Cut(const DanceSettings& settings, RenderOptions* options, Stage* stage,
     std::cerr << "note: the motion ends at " << Rounded(ends_s) << " s, before --until "
               << options->until << '\n';
   }
-  for (auto& dancer : *stage) {
+  for (auto& dancer : *scene) {
     auto& frames = dancer.motion.frames;
     // A dancer whose motion ends earlier stands still, as in the whole film.
     frames.resize(static_cast<size_t>(std::max(std::ssize(frames), end)), frames.back());
@@ -126,27 +126,27 @@ void Cut(const DanceSettings& settings, RenderOptions* options, Stage* stage,
 }
 
 /// Resamples all motions to the first one's rate.
-Stage ReadStage(const std::vector<std::string>& paths) {
-  Stage stage;
+Scene ReadScene(const std::vector<std::string>& paths) {
+  Scene scene;
   for (const std::string& path : paths) {
-    Motion& motion = stage.emplace_back(authoring::ReadMotionNoting(path)).motion;
-    if (motion.fps != stage.front().motion.fps) motion = Resample(motion, stage.front().motion.fps);
+    Motion& motion = scene.emplace_back(authoring::ReadMotionNoting(path)).motion;
+    if (motion.fps != scene.front().motion.fps) motion = Resample(motion, scene.front().motion.fps);
   }
-  return stage;
+  return scene;
 }
 
-void DrawSheet(const RenderOptions& options, const Stage& stage,
+void DrawSheet(const RenderOptions& options, const Scene& scene,
                const std::vector<DrawnKey>& keys) {
   ContactSheetOptions sheet = options.sheet;
   for (const auto& [seconds, holds] : keys) {
     if (holds) continue;  // one pose is one key
-    const int64_t frame = std::llround(seconds * stage.front().motion.fps);
-    if (frame < CountFrames(stage)) sheet.key_frames.push_back(frame);
+    const int64_t frame = std::llround(seconds * scene.front().motion.fps);
+    if (frame < CountFrames(scene)) sheet.key_frames.push_back(frame);
   }
   if (options.rate) {
-    const double fps = stage.front().motion.fps;
+    const double fps = scene.front().motion.fps;
     sheet.step = std::max(1.0, fps / *options.rate);
-    const double shown = static_cast<double>(CountFrames(stage)) / sheet.step;
+    const double shown = static_cast<double>(CountFrames(scene)) / sheet.step;
     if (shown > kMaxSheetFrames) {
       throw InvalidArgument("--rate", InFull(*options.rate) + " a second make " +
                                           std::to_string(std::lround(shown)) +
@@ -159,11 +159,11 @@ void DrawSheet(const RenderOptions& options, const Stage& stage,
       return motion.filename().string();
     });
   }
-  if (stage.size() > 1) sheet.tile_width *= 2;
-  DrawContactSheet(stage, sheet, options.out);
+  if (scene.size() > 1) sheet.tile_width *= 2;
+  DrawContactSheet(scene, sheet, options.out);
 }
 
-void DrawFilm(const RenderOptions& options, const Stage& stage, const std::vector<DrawnKey>& keys) {
+void DrawFilm(const RenderOptions& options, const Scene& scene, const std::vector<DrawnKey>& keys) {
   VideoOptions film = options.film;
   film.format.song = options.song;
   for (const DrawnKey& key : keys) film.keys.push_back(key.seconds);
@@ -181,7 +181,7 @@ void DrawFilm(const RenderOptions& options, const Stage& stage, const std::vecto
     if (!bar) bar = std::make_unique<ProgressBar>("rendering", frames);
     bar->Advance();
   };
-  DrawVideo(stage, film, options.video);
+  DrawVideo(scene, film, options.video);
   bar->Finish();
 }
 
@@ -198,17 +198,17 @@ void Run(RenderOptions options, const ReportFile& report) {
   std::vector<NamedFile> inputs = {{"--report", options.report}, {"--song", options.song}};
   for (const std::string& motion : options.motions) inputs.push_back({"motion", motion});
   RequireOutputs({{"--out", options.out}, {"--video", options.video}}, inputs);
-  Stage stage = ReadStage(options.motions);
+  Scene scene = ReadScene(options.motions);
   // With several motions, the report belongs to only one of them.
-  if (!options.report.empty() && stage.size() == 1)
-    CheckSketch(options.report, report, stage.front().motion);
+  if (!options.report.empty() && scene.size() == 1)
+    CheckSketch(options.report, report, scene.front().motion);
   std::vector<DrawnKey> keys;
   for (const auto& [frame, key] : report.keys)
     keys.push_back({static_cast<double>(frame) / report.fps, !key.holds.empty()});
-  Cut(report.settings, &options, &stage, &keys);
-  if (!options.out.empty()) DrawSheet(options, stage, keys);
+  Cut(report.settings, &options, &scene, &keys);
+  if (!options.out.empty()) DrawSheet(options, scene, keys);
   Interruption::Check();
-  if (!options.video.empty()) DrawFilm(options, stage, keys);
+  if (!options.video.empty()) DrawFilm(options, scene, keys);
 }
 
 }  // namespace

@@ -8,13 +8,13 @@
 
 namespace choreo {
 
-/// Computes the light on a figure's parts. Immutable; thread-safe.
-class FigureLight {
+/// Computes the light on a doll's parts. Immutable; thread-safe.
+class DollLight {
  public:
-  /// Keeps references to `figure` and `parts`, which have the same shapes. `lamp`: unit vector
+  /// Keeps references to `doll` and `parts`, which have the same shapes. `lamp`: unit vector
   /// towards the lamp.
-  FigureLight(const std::vector<PlacedPart>& figure, const std::vector<BoundedCone>& parts,
-              const Eigen::Vector3f& lamp);
+  DollLight(const std::vector<PlacedPart>& doll, const std::vector<BoundedCone>& parts,
+            const Eigen::Vector3f& lamp);
 
   /// The linear colour of part `index` at `point`, where a ray of unit direction `ray` hits it.
   /// `normal`: the part's own normal there.

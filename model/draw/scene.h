@@ -33,23 +33,23 @@ CameraSide FindCamera(const std::string& name);
 /// Smoothing of the path that the camera follows, seconds.
 inline constexpr double kCameraLag = 0.6;
 
-using Stage = std::vector<SkeletonMotion>;
+using Scene = std::vector<SkeletonMotion>;
 
 /// Throws Error(kInvalidArgument) for no dancers, a dancer without frames, or different rates.
-void CheckStage(const Stage& stage);
+void CheckScene(const Scene& scene);
 
 /// The number of frames of the longest motion. Shorter ones hold their last pose.
-int64_t CountFrames(const Stage& stage);
+int64_t CountFrames(const Scene& scene);
 const Pose& PoseOf(const SkeletonMotion& dancer, int64_t frame);
 
 /// The mean position of the roots on the floor, x and z.
-Eigen::Vector2d MiddleOf(const Stage& stage, int64_t frame);
+Eigen::Vector2d MiddleOf(const Scene& scene, int64_t frame);
 
 /// The parts of all bodies at a frame.
-std::vector<PlacedPart> FiguresAt(const Stage& stage, int64_t frame);
+std::vector<PlacedPart> DollsAt(const Scene& scene, int64_t frame);
 
 /// A frame and the floor position (x, z) at the middle of its picture, metres.
-struct FramedStage {
+struct FramedScene {
   int64_t frame = 0;
   Eigen::Vector2d middle;
 };
@@ -57,7 +57,7 @@ struct FramedStage {
 /// dancers. The default side is three quarters from the front for one dancer, the front for
 /// several. Throws Error(kInvalidArgument), whose field is "camera", if the camera is to follow
 /// several dancers.
-std::vector<View> ViewsOf(const Stage& stage, const std::vector<FramedStage>& frames, double aspect,
+std::vector<View> ViewsOf(const Scene& scene, const std::vector<FramedScene>& frames, double aspect,
                           std::optional<CameraSide> side = {});
 
 }  // namespace choreo

@@ -1,4 +1,4 @@
-#include "model/draw/figure_light.h"
+#include "model/draw/doll_light.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -24,8 +24,8 @@ std::vector<ConeLanes> InLanes(std::span<const BoundedCone> cones) {
 
 }  // namespace
 
-FigureLight::FigureLight(const std::vector<PlacedPart>& figure,
-                         const std::vector<BoundedCone>& parts, const Vector3f& lamp)
+DollLight::DollLight(const std::vector<PlacedPart>& doll, const std::vector<BoundedCone>& parts,
+                     const Vector3f& lamp)
     : lamp_(lamp) {
   for (size_t i = 0; i < parts.size(); ++i) {
     const float around = parts[i].radius + 2 * kShadowBias;
@@ -40,12 +40,12 @@ FigureLight::FigureLight(const std::vector<PlacedPart>& figure,
       }
     }
     parts_.push_back(
-        {Linear(figure[i].colour), SkinAround(figure, i), InLanes(shading), InLanes(hiding)});
+        {Linear(doll[i].colour), SkinAround(doll, i), InLanes(shading), InLanes(hiding)});
   }
 }
 
-Vector3f FigureLight::At(size_t index, const Vector3f& point, const Vector3f& own,
-                         const Vector3f& ray) const {
+Vector3f DollLight::At(size_t index, const Vector3f& point, const Vector3f& own,
+                       const Vector3f& ray) const {
   const Part& part = parts_[index];
   const Vector3f normal = SkinNormal(part.skin, point, own);
   const Vector3f start = point + kShadowBias * normal;

@@ -1,4 +1,4 @@
-#include "model/draw/stage.h"
+#include "model/draw/scene.h"
 
 #include <algorithm>
 #include <cmath>
@@ -49,8 +49,8 @@ std::vector<double> SmoothHeadings(const Motion& motion) {
   return smooth;
 }
 
-// A View of a stage, which may be wide without being high.
-View StageView(const FramedStage& framed, double azimuth, double extent) {
+// A View of a scene, which may be wide without being high.
+View SceneView(const FramedScene& framed, double azimuth, double extent) {
   View view{.target = {framed.middle.x(), View().target.y(), framed.middle.y()},
             .azimuth = azimuth,
             .extent = extent};
@@ -71,24 +71,24 @@ bool IsSeen(const PlacedPart& part, const Camera& camera, const Eigen::Array2f& 
 }
 
 // The least extent that shows everybody; nearer dancers look larger.
-double FitStage(const Stage& stage, const std::vector<FramedStage>& frames, double azimuth,
+double FitScene(const Scene& scene, const std::vector<FramedScene>& frames, double azimuth,
                 double aspect) {
   const int width = std::max(1, static_cast<int>(kTriedHeight * aspect));
   const Eigen::Array2f size(width, kTriedHeight);
   double extent = 2;
-  for (const FramedStage& framed : frames) {
-    const std::vector<PlacedPart> figures = FiguresAt(stage, framed.frame);
+  for (const FramedScene& framed : frames) {
+    const std::vector<PlacedPart> dolls = DollsAt(scene, framed.frame);
     const auto fits = [&] {
-      const Camera camera(StageView(framed, azimuth, extent), width, kTriedHeight);
+      const Camera camera(SceneView(framed, azimuth, extent), width, kTriedHeight);
       return std::ranges::all_of(
-          figures, [&](const PlacedPart& part) { return IsSeen(part, camera, size); });
+          dolls, [&](const PlacedPart& part) { return IsSeen(part, camera, size); });
     };
     while (extent * kWidening < kMaxExtent && !fits()) extent *= kWidening;
   }
   return extent;
 }
 
-std::vector<View> ViewsOfOne(const SkeletonMotion& dancer, const std::vector<FramedStage>& frames,
+std::vector<View> ViewsOfOne(const SkeletonMotion& dancer, const std::vector<FramedScene>& frames,
                              double aspect, CameraSide side) {
   std::vector<FramedPose> poses;
   for (const auto& [frame, middle] : frames)
@@ -115,19 +115,19 @@ CameraSide FindCamera(const std::string& name) {
                             Joined(kCameraNames, [](const char* known) { return known; }));
 }
 
-void CheckStage(const Stage& stage) {
-  if (stage.empty()) throw InvalidArgument("stage", "nobody is on it");
-  for (const SkeletonMotion& dancer : stage) {
+void CheckScene(const Scene& scene) {
+  if (scene.empty()) throw InvalidArgument("stage", "nobody is on it");
+  for (const SkeletonMotion& dancer : scene) {
     if (dancer.motion.frames.empty())
       throw InvalidArgument("motion.frames", "0 frames, at least 1 is needed");
-    if (dancer.motion.fps != stage.front().motion.fps)
+    if (dancer.motion.fps != scene.front().motion.fps)
       throw InvalidArgument("motion.fps", "differs from dancer to dancer");
   }
 }
 
-int64_t CountFrames(const Stage& stage) {
+int64_t CountFrames(const Scene& scene) {
   int64_t frames = 0;
-  for (const SkeletonMotion& dancer : stage)
+  for (const SkeletonMotion& dancer : scene)
     frames = std::max<int64_t>(frames, std::ssize(dancer.motion.frames));
   return frames;
 }
@@ -137,36 +137,36 @@ const Pose& PoseOf(const SkeletonMotion& dancer, int64_t frame) {
   return dancer.motion.frames[static_cast<size_t>(std::clamp<int64_t>(frame, 0, last))];
 }
 
-Eigen::Vector2d MiddleOf(const Stage& stage, int64_t frame) {
+Eigen::Vector2d MiddleOf(const Scene& scene, int64_t frame) {
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();
-  for (const SkeletonMotion& dancer : stage) {
+  for (const SkeletonMotion& dancer : scene) {
     const Eigen::Vector3d& root = PoseOf(dancer, frame).root_position;
     sum += Eigen::Vector2d(root.x(), root.z());
   }
-  return sum / static_cast<double>(stage.size());
+  return sum / static_cast<double>(scene.size());
 }
 
-std::vector<PlacedPart> FiguresAt(const Stage& stage, int64_t frame) {
-  std::vector<PlacedPart> figures;
-  for (const SkeletonMotion& dancer : stage) {
-    const std::vector<PlacedPart> figure = BuildFigure(dancer.skeleton, PoseOf(dancer, frame));
-    figures.insert(figures.end(), figure.begin(), figure.end());
+std::vector<PlacedPart> DollsAt(const Scene& scene, int64_t frame) {
+  std::vector<PlacedPart> dolls;
+  for (const SkeletonMotion& dancer : scene) {
+    const std::vector<PlacedPart> doll = BuildDoll(dancer.skeleton, PoseOf(dancer, frame));
+    dolls.insert(dolls.end(), doll.begin(), doll.end());
   }
-  return figures;
+  return dolls;
 }
 
-std::vector<View> ViewsOf(const Stage& stage, const std::vector<FramedStage>& frames, double aspect,
+std::vector<View> ViewsOf(const Scene& scene, const std::vector<FramedScene>& frames, double aspect,
                           std::optional<CameraSide> side) {
-  if (stage.size() == 1)
-    return ViewsOfOne(stage.front(), frames, aspect, side.value_or(CameraSide::kThreeQuarter));
+  if (scene.size() == 1)
+    return ViewsOfOne(scene.front(), frames, aspect, side.value_or(CameraSide::kThreeQuarter));
   if (side == CameraSide::kFollow) {
     throw InvalidArgument(
-        "camera", "follow turns with one dancer, and there are " + std::to_string(stage.size()));
+        "camera", "follow turns with one dancer, and there are " + std::to_string(scene.size()));
   }
   const double azimuth = AzimuthOf(side.value_or(CameraSide::kFront));
-  const double extent = FitStage(stage, frames, azimuth, aspect);
+  const double extent = FitScene(scene, frames, azimuth, aspect);
   std::vector<View> views;
-  for (const FramedStage& framed : frames) views.push_back(StageView(framed, azimuth, extent));
+  for (const FramedScene& framed : frames) views.push_back(SceneView(framed, azimuth, extent));
   return views;
 }
 

@@ -1,4 +1,4 @@
-#include "model/draw/stage.h"
+#include "model/draw/scene.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include "model/motion/rotation.h"
 #include "tests/support/expect_error.h"
 
-namespace choreo::stage_test {
+namespace choreo::scene_test {
 
 const Skeleton& kSmpl = Skeleton::Smpl24();
 
@@ -16,18 +16,18 @@ SkeletonMotion At(double x, double z, size_t frames) {
   return dancer;
 }
 
-TEST(Stage, EverybodyIsSeenFromTheFront) {
+TEST(Scene, EverybodyIsSeenFromTheFront) {
   constexpr int kWidth = 640, kHeight = 360;
   for (const double wide : {0.8, 2.0, 6.0}) {
-    const Stage stage = {At(-wide, 0, 2), At(0, 1, 5), At(wide, -1, 3)};
-    EXPECT_EQ(CountFrames(stage), 5);
-    const View view = ViewsOf(stage, {{4, MiddleOf(stage, 4)}}, double{kWidth} / kHeight).at(0);
+    const Scene scene = {At(-wide, 0, 2), At(0, 1, 5), At(wide, -1, 3)};
+    EXPECT_EQ(CountFrames(scene), 5);
+    const View view = ViewsOf(scene, {{4, MiddleOf(scene, 4)}}, double{kWidth} / kHeight).at(0);
     EXPECT_EQ(view.azimuth, 0);
     EXPECT_NEAR(view.target.x(), 0, 1e-9);
     const Camera camera(view, kWidth, kHeight);
-    const std::vector<PlacedPart> figures = FiguresAt(stage, 4);
-    EXPECT_EQ(figures.size(), 3 * BuildFigure(kSmpl, RestPose(kSmpl)).size());
-    for (const PlacedPart& part : figures) {
+    const std::vector<PlacedPart> dolls = DollsAt(scene, 4);
+    EXPECT_EQ(dolls.size(), 3 * BuildDoll(kSmpl, RestPose(kSmpl)).size());
+    for (const PlacedPart& part : dolls) {
       for (const auto& [ball, radius] : {std::pair(part.shape.a, part.shape.radius_a),
                                          std::pair(part.shape.b, part.shape.radius_b)}) {
         const Eigen::AlignedBox2f seen = camera.Bounds(ball, radius);
@@ -41,19 +41,19 @@ TEST(Stage, EverybodyIsSeenFromTheFront) {
 }
 
 /// Turns left by a quarter every second; faces +X at first.
-Stage Turning() {
-  Stage stage = {At(0, 0, 120)};
+Scene Turning() {
+  Scene scene = {At(0, 0, 120)};
   for (size_t i = 0; i < 120; ++i) {
     const double heading = M_PI / 2 * (1 + static_cast<double>(i) / 30);
-    stage[0].motion.frames[i].rotations.col(0) = Eigen::Vector3d(0, WrapAngle(heading), 0);
+    scene[0].motion.frames[i].rotations.col(0) = Eigen::Vector3d(0, WrapAngle(heading), 0);
   }
-  return stage;
+  return scene;
 }
 
-TEST(Stage, CamerasAreOnTheRequestedSide) {
-  const Stage stage = Turning();
+TEST(Scene, CamerasAreOnTheRequestedSide) {
+  const Scene scene = Turning();
   const auto azimuth = [&](std::optional<CameraSide> side, int64_t frame) {
-    return ViewsOf(stage, {{frame, {0, 0}}}, 1, side).at(0).azimuth;
+    return ViewsOf(scene, {{frame, {0, 0}}}, 1, side).at(0).azimuth;
   };
   EXPECT_NEAR(azimuth(CameraSide::kFront, 60), M_PI / 2, 1e-9);
   EXPECT_NEAR(azimuth(CameraSide::kSide, 60), M_PI, 1e-9);
@@ -70,22 +70,22 @@ TEST(Stage, CamerasAreOnTheRequestedSide) {
               [] { FindCamera("above"); });
 }
 
-TEST(Stage, SeveralAreSeenFromASideOfTheStage) {
-  const Stage stage = {At(-1, 0, 2), At(1, 0, 2)};
-  const std::vector<FramedStage> frames = {{0, {0, 0}}};
-  EXPECT_NEAR(ViewsOf(stage, frames, 1, CameraSide::kBack).at(0).azimuth, M_PI, 1e-9);
-  EXPECT_LT(ViewsOf(stage, frames, 1, CameraSide::kSide).at(0).extent,
-            ViewsOf(stage, frames, 1).at(0).extent);
+TEST(Scene, SeveralAreSeenFromASideOfTheStage) {
+  const Scene scene = {At(-1, 0, 2), At(1, 0, 2)};
+  const std::vector<FramedScene> frames = {{0, {0, 0}}};
+  EXPECT_NEAR(ViewsOf(scene, frames, 1, CameraSide::kBack).at(0).azimuth, M_PI, 1e-9);
+  EXPECT_LT(ViewsOf(scene, frames, 1, CameraSide::kSide).at(0).extent,
+            ViewsOf(scene, frames, 1).at(0).extent);
   ExpectError(ErrorCode::kInvalidArgument, "camera: follow turns with one dancer",
-              [&] { ViewsOf(stage, frames, 1, CameraSide::kFollow); });
+              [&] { ViewsOf(scene, frames, 1, CameraSide::kFollow); });
 }
 
-TEST(Stage, RefusesDancersThatFitNoPicture) {
-  ExpectError(ErrorCode::kInvalidArgument, "nobody", [] { CheckStage({}); });
-  ExpectError(ErrorCode::kInvalidArgument, "0 frames", [] { CheckStage({At(0, 0, 0)}); });
-  Stage stage = {At(0, 0, 2), At(1, 0, 2)};
-  stage[1].motion.fps = 60;
-  ExpectError(ErrorCode::kInvalidArgument, "motion.fps", [&] { CheckStage(stage); });
+TEST(Scene, RefusesDancersThatFitNoPicture) {
+  ExpectError(ErrorCode::kInvalidArgument, "nobody", [] { CheckScene({}); });
+  ExpectError(ErrorCode::kInvalidArgument, "0 frames", [] { CheckScene({At(0, 0, 0)}); });
+  Scene scene = {At(0, 0, 2), At(1, 0, 2)};
+  scene[1].motion.fps = 60;
+  ExpectError(ErrorCode::kInvalidArgument, "motion.fps", [&] { CheckScene(scene); });
 }
 
-}  // namespace choreo::stage_test
+}  // namespace choreo::scene_test
