@@ -86,7 +86,7 @@ TransitionSpec Spec(const ModelInfo& model, uint64_t seed) {
     spec.music = {Eigen::MatrixXf::Zero(model.hearing.features, model.history_frames),
                   Eigen::MatrixXf::Zero(model.hearing.features, spec.frames)};
   }
-  if (model.Takes(kRootPath)) {
+  if (model.Supports(kRootPath)) {
     const Eigen::Vector3d from = spec.history.back().root_position;
     const Eigen::Vector3d way = key.root_position - from;
     spec.controls[kRootPath].values =

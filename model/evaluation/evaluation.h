@@ -34,9 +34,9 @@ struct Method {
   bool Lasts(int frames) const {
     return kind != Kind::kModel || frames <= sampler->model().max_transition_frames;
   }
-  bool TakesPath() const { return kind != Kind::kModel || sampler->model().Takes(kRootPath); }
-  bool TakesVelocityFactors() const {
-    return kind == Kind::kModel && sampler->model().Takes(kVelocityFactors);
+  bool FollowsPath() const { return kind != Kind::kModel || sampler->model().Supports(kRootPath); }
+  bool FollowsVelocityFactors() const {
+    return kind == Kind::kModel && sampler->model().Supports(kVelocityFactors);
   }
   /// Removes from a request the inputs that this method does not take.
   void Restrict(TransitionSpec* request) const {

@@ -120,7 +120,7 @@ void EvaluateAll(Arguments arguments) {
   const Contest contest = MakeContest(arguments.contest);
   const ModelInfo& model = contest.judged().model();
   EvalOptions& options = arguments.options;
-  if (arguments.controls && !model.Takes(kRootPath))
+  if (arguments.controls && !model.Supports(kRootPath))
     throw InvalidArgument("--controls", model.name + " takes none");
   if (!arguments.controls) CheckLengths(contest.methods, options.lengths);
   options.own_temperatures = arguments.temperature < 0;

@@ -35,10 +35,10 @@ struct ModelInfo : ModelDescription {
   bool plan_stages = false;       ///< whether its plans pass kPlanStages (plan/plan_stages.h)
   PlanOptions plan_options = {};  ///< settings of kPlanStages and of footwork
 
-  bool Takes(std::string_view control) const {
+  bool Supports(std::string_view control) const {
     return std::ranges::find(controls, control) != controls.end();
   }
-  bool Takes(size_t row) const { return Takes(kControls[row].name); }
+  bool Supports(size_t row) const { return Supports(kControls[row].name); }
 };
 
 /// Throws Error(kInvalidArgument), field "style", unless it is one of the model's or empty.

@@ -48,7 +48,7 @@ void CheckControls(const Request& request, const ModelInfo& model, const std::st
       [&](size_t row, const auto& control) {
         if (!control) return;
         const std::string name = field + "." + std::string(rows[row].name);
-        if (!model.Takes(rows[row].name)) {
+        if (!model.Supports(rows[row].name)) {
           throw InvalidArgument(name,
                                 "the model \"" + model.name + "\" does not have this control");
         }

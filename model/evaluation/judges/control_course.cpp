@@ -104,8 +104,8 @@ Dances ControlCourse::Dance(const Method& way, double scale) const {
   std::vector<TransitionSpec> requests;
   for (size_t i = 0; i < windows_.size(); ++i) {
     TransitionSpec request = RequestFor(i);
-    if (way.TakesPath()) request.controls[kRootPath].values = windows_[i].path;
-    if (way.TakesVelocityFactors())
+    if (way.FollowsPath()) request.controls[kRootPath].values = windows_[i].path;
+    if (way.FollowsVelocityFactors())
       request.controls[kVelocityFactors].values = scale * windows_[i].factors;
     way.Restrict(&request);
     requests.push_back(std::move(request));

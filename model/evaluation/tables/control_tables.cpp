@@ -30,7 +30,7 @@ JointTrack FacingTrack(const Skeleton& skeleton, const std::vector<Pose>& poses)
 std::string WithoutControls(const std::vector<Method>& ways) {
   std::string names;
   for (const Method& way : ways) {
-    if (!way.TakesPath() && way.finished) names += (names.empty() ? "; " : ", ") + way.name;
+    if (!way.FollowsPath() && way.finished) names += (names.empty() ? "; " : ", ") + way.name;
   }
   return names.empty() ? names : names + " takes neither";
 }
@@ -43,7 +43,7 @@ Table FactorTable(Table table, const std::string& note, const Evaluation& evalua
   table.note = note;
   for (const Method& way : WaysOf(evaluation.methods)) {
     for (const auto& [scale, times] : kScales) {
-      if (scale != 1 && !way.TakesVelocityFactors()) continue;
+      if (scale != 1 && !way.FollowsVelocityFactors()) continue;
       const Dances dances = course.Dance(way, scale);
       table.AddRow({way.name, times});
       for (int part = 0; part < kBodyParts; ++part) {
@@ -108,7 +108,7 @@ std::vector<ControlFigure> ControlFigures(const Skeleton& skeleton, double fps) 
 
 std::vector<Table> EvaluateControls(const Evaluation& evaluation) {
   const ModelInfo& model = evaluation.model();
-  if (!model.Takes(kRootPath)) return {};
+  if (!model.Supports(kRootPath)) return {};
   const std::vector<Method> ways = WaysOf(evaluation.methods);
   const std::string setting =
       "Transitions between real poses, with the real dance's root path and velocity factors" +
@@ -149,7 +149,7 @@ std::vector<Table> EvaluateControls(const Evaluation& evaluation) {
 
 std::vector<Table> EvaluateMultipliers(const Evaluation& evaluation) {
   const ModelInfo& model = evaluation.model();
-  if (!model.Takes(kRootPath)) return {};
+  if (!model.Supports(kRootPath)) return {};
   ControlCourse course(evaluation, kFactorFrames);
   const std::string setting = std::to_string(kFactorFrames) + " frames on the real path";
   std::vector<Table> tables;
@@ -169,7 +169,7 @@ std::vector<Table> EvaluateMultipliers(const Evaluation& evaluation) {
 
 std::vector<Table> EvaluateRepetition(const Evaluation& evaluation) {
   const ModelInfo& model = evaluation.model();
-  if (!model.Takes(kRootPath)) return {};
+  if (!model.Supports(kRootPath)) return {};
   Table table = evaluation.NewTable("repetition", "Repetition and endings", {"method"});
   table.note =
       "Shares of half seconds: that repeat one before them, and that hold still in the last fifth "

@@ -54,7 +54,7 @@ double PathSpeed(const ControlledWindow& window, double fps) {
 
 std::vector<Table> EvaluateDrawnPaths(const Evaluation& evaluation) {
   const ModelInfo& model = evaluation.model();
-  if (!model.Takes(kRootPath)) return {};
+  if (!model.Supports(kRootPath)) return {};
   Table table = evaluation.NewTable("drawn", "Drawn paths", {"path", "method"});
   table.note = std::to_string(kFrames) +
                " frames between real poses on paths that nobody danced, no velocity factors asked "
@@ -67,7 +67,7 @@ std::vector<Table> EvaluateDrawnPaths(const Evaluation& evaluation) {
     if (shape != Drawing::kDanced)
       course.Redraw([&, shape = shape](ControlledWindow* window) { return Draw(shape, window); });
     for (const Method& way : WaysOf(evaluation.methods)) {
-      if (!way.TakesPath() || !way.keys) continue;
+      if (!way.FollowsPath() || !way.keys) continue;
       if (way.kind == Method::Kind::kReal && shape != Drawing::kDanced) continue;
       const Dances dances = course.Dance(way);
       const auto put = [&](const char* heading, int digits, const ControlCourse::Figure& figure) {

@@ -337,7 +337,7 @@ void Judge::Hits() {
     Know(song.mono, &config);
     const std::vector<Pose> dance = Dance(song.mono, config, kUsual);
     const std::vector<Key> keys = KeysOf(dance);
-    const bool takes_path = queue_.model().Takes(kRootPath);
+    const bool takes_path = queue_.model().Supports(kRootPath);
     add("free", dance);
     if (takes_path)
       add("free on a path", Dance(song.mono, config, kUsual, {}, Circle(dance.size())));

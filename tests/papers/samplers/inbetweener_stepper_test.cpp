@@ -37,7 +37,7 @@ TEST_F(InbetweenerStepperTest, IsDeterministicWithoutMusicInput) {
   EXPECT_EQ(model.name, "harvey");
   EXPECT_TRUE(model.deterministic);
   EXPECT_FALSE(model.hearing);
-  EXPECT_FALSE(model.Takes(kRootPath));
+  EXPECT_FALSE(model.Supports(kRootPath));
   EXPECT_FALSE(SettingsUsedBy(*sampler_).kind);
 }
 
