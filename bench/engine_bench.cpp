@@ -82,9 +82,9 @@ TransitionSpec Spec(const ModelInfo& model, uint64_t seed) {
   spec.target = Target{key, {}};
   spec.seed = seed;
   spec.temperature = static_cast<float>(model.default_temperature);
-  if (model.hearing) {
-    spec.music = {Eigen::MatrixXf::Zero(model.hearing.features, model.history_frames),
-                  Eigen::MatrixXf::Zero(model.hearing.features, spec.frames)};
+  if (model.music_features) {
+    spec.music = {Eigen::MatrixXf::Zero(model.music_features.count, model.history_frames),
+                  Eigen::MatrixXf::Zero(model.music_features.count, spec.frames)};
   }
   if (model.Supports(kRootPath)) {
     const Eigen::Vector3d from = spec.history.back().root_position;

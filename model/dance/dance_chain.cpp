@@ -90,7 +90,7 @@ DanceChain::DanceChain(SampleQueue& queue, const ValidDance& config,
       first_frame_(config->FirstFrame()),
       audio_(config->audio
                  ? std::make_unique<AudioFeed>(config->audio->sample_rate, config->audio->channels,
-                                               config->audio->first_sample, model_.hearing)
+                                               config->audio->first_sample, model_.music_features)
                  : nullptr),
       reporter_(model_, config, audio_.get(), mailbox_),
       start_time_(PlaybackClock()),

@@ -30,8 +30,9 @@ std::unique_ptr<AudioFeed> Feed(const ModelInfo& model, GroupRequest* request) {
   const size_t skipped =
       std::min(static_cast<size_t>(first - first_sample) * channels, samples.size());
   std::span<const float> rest = std::span(samples).subspan(skipped);
-  auto audio = std::make_unique<AudioFeed>(
-      rate, channel_count, first_sample + static_cast<int64_t>(skipped / channels), model.hearing);
+  auto audio = std::make_unique<AudioFeed>(rate, channel_count,
+                                           first_sample + static_cast<int64_t>(skipped / channels),
+                                           model.music_features);
   const size_t second = static_cast<size_t>(rate) * channels;
   while (!rest.empty() && audio->ready() < request->FirstFrame() + request->frames) {
     const size_t count = std::min(second, rest.size());

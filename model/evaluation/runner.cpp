@@ -41,7 +41,7 @@ Next NextOf(const ModelInfo& model, const LongPlan& plan, const LongDance& chain
     spec.arrival_frames = 0;
     spec.footwork = false;
   }
-  if (plan.audio.cols() > 0 && model.hearing) {
+  if (plan.audio.cols() > 0 && model.music_features) {
     const int history = model.history_frames;
     // The dance ends with the plan, even if the audio is longer.
     MusicRows& music = spec.music.emplace();

@@ -22,7 +22,7 @@ struct LongPlan {
   int frames = 0;
   std::vector<Pose> history;
   std::map<int, Pose> keys;  ///< by frame of the dance, each below `frames`
-  /// [Hearing::features, history frames + frames], or no columns for dances without music.
+  /// [MusicFeatures::count, history frames + frames], or no columns for dances without music.
   Eigen::MatrixXf audio;
   std::vector<double> beats;  ///< of the music, in frames of the dance
   uint64_t seed = 0;

@@ -46,7 +46,7 @@ TransitionSpec RequestOf(const ModelInfo& model, const ClipSet& set, const EvalW
   spec.seed = number;
   spec.beats = set.BeatsBetween(window.clip, window.start - kBeatMargin, frames + 2 * kBeatMargin);
   for (double& beat : spec.beats) beat -= kBeatMargin;
-  if (clip.audio.cols() > 0 && model.hearing) {
+  if (clip.audio.cols() > 0 && model.music_features) {
     spec.music = {clip.audio.middleCols(window.start - history, history),
                   clip.audio.middleCols(window.start, frames)};
   }

@@ -14,12 +14,12 @@ namespace choreo {
 
 /// The music features that a model uses for each frame, besides beats and energy. A model with such
 /// features starts a transition once all of the transition's music has arrived.
-struct Hearing {
-  int features = 0;  ///< numbers per frame; 0: none
+struct MusicFeatures {
+  int count = 0;  ///< numbers per frame; 0: none
   /// Computes a frame's features from the mel bands, in dB.
   void (*row)(std::span<const double> bands, std::span<float> features) = nullptr;
 
-  explicit operator bool() const { return features > 0; }
+  explicit operator bool() const { return count > 0; }
 };
 
 /// A loaded model: what a server reports about it, and what its engine needs besides. Constant for
@@ -31,7 +31,7 @@ struct ModelInfo : ModelDescription {
   /// it sees no later key.
   int sight_frames = 0;
   double max_temperature = kMaxTemperature;  ///< higher values change nothing
-  Hearing hearing = {};
+  MusicFeatures music_features = {};
   bool plan_stages = false;       ///< whether its plans pass kPlanStages (plan/plan_stages.h)
   PlanOptions plan_options = {};  ///< settings of kPlanStages and of footwork
 

@@ -14,10 +14,10 @@ namespace {
 
 void CheckRows(const Eigen::MatrixXf& rows, int count, const ModelInfo& model,
                const std::string& field) {
-  if (rows.rows() == model.hearing.features && rows.cols() == count) return;
+  if (rows.rows() == model.music_features.count && rows.cols() == count) return;
   throw InvalidArgument(field, std::to_string(rows.rows()) + " x " + std::to_string(rows.cols()) +
-                                   ", must be " + std::to_string(model.hearing.features) + " x " +
-                                   std::to_string(count));
+                                   ", must be " + std::to_string(model.music_features.count) +
+                                   " x " + std::to_string(count));
 }
 
 void CheckTarget(const Target& target, const ModelInfo& model, const std::string& field) {
@@ -63,7 +63,7 @@ ValidSpec::ValidSpec(TransitionSpec request, const ModelInfo& model) : Valid(std
     CheckJoints(model.skeleton, *spec.after, "after");
     if (!spec.target) throw InvalidArgument("after", "needs a target");
   }
-  if (spec.music && model.hearing) {
+  if (spec.music && model.music_features) {
     CheckRows(spec.music->history, tau, model, "audio_history");
     CheckRows(spec.music->rows, spec.frames, model, "audio_rows");
   }

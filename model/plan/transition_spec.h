@@ -21,7 +21,7 @@ struct LaterTarget {
   int frames = 0;  ///< >= 1, from the transition's last frame to the key's
 };
 
-/// The music features that a model hears (Hearing).
+/// MusicFeatures of a transition.
 struct MusicRows {
   Eigen::MatrixXf history;  ///< [features, tau], of the history's frames, oldest first
   Eigen::MatrixXf rows;     ///< [features, frames], of the transition's own frames

@@ -67,8 +67,8 @@ TransitionSpec RandomSpec(const ModelInfo& model, uint64_t seed, int frames) {
   spec.arrival_frames = seed % 4 == 3 ? 6 : 0;
   if (seed % 2 == 1) {
     MusicRows& music = spec.music.emplace();
-    music.history.resize(model.hearing.features, model.history_frames);
-    music.rows.resize(model.hearing.features, frames);
+    music.history.resize(model.music_features.count, model.history_frames);
+    music.rows.resize(model.music_features.count, frames);
     for (auto* rows : {&music.history, &music.rows})
       for (float& value : rows->reshaped()) value = static_cast<float>(random.Normal());
   }

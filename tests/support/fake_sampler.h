@@ -61,7 +61,7 @@ class FakeTransition {
   void Step(int frame, Plan* plan) {
     spec_.FillNoise(frame, noise_);
     double music = 0;
-    if (spec_.music && model_.hearing)
+    if (spec_.music && model_.music_features)
       music = std::tanh(spec_.music->rows.col(frame).cast<double>().sum() / 100.0);
     const double left = spec_.frames - frame;  // reaches the goal in this many steps
     const Eigen::VectorXd now = Flat(pose_);
@@ -147,9 +147,10 @@ inline Slices<Plan> FakeSampler::Sample(const ValidSpec& spec) {
 class HearingSampler : public FakeSampler {
  public:
   HearingSampler() {
-    model_.hearing = {kMfccCount, [](std::span<const double> bands, std::span<float> features) {
-                        MfccOfMelDb(bands.first<kMelBands>(), features.first<kMfccCount>());
-                      }};
+    model_.music_features = {kMfccCount,
+                             [](std::span<const double> bands, std::span<float> features) {
+                               MfccOfMelDb(bands.first<kMelBands>(), features.first<kMfccCount>());
+                             }};
   }
 };
 

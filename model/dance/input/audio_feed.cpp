@@ -13,10 +13,10 @@
 namespace choreo {
 namespace {
 
-Eigen::VectorXf Hear(const Hearing& hearing, const FeatureStream& music, int64_t row) {
-  Eigen::VectorXf features(hearing.features);
-  hearing.row(music.Bands(row), {features.data(), static_cast<size_t>(hearing.features)});
-  return features;
+Eigen::VectorXf RowOf(const MusicFeatures& features, const FeatureStream& music, int64_t at) {
+  Eigen::VectorXf row(features.count);
+  features.row(music.Bands(at), {row.data(), static_cast<size_t>(features.count)});
+  return row;
 }
 
 // The largest distances of samples from their channel's offset, and of the sums of the channels.
@@ -53,11 +53,11 @@ Peaks PeaksOf(std::span<const float> interleaved, std::span<const float> offsets
   return PeaksOf<size_t>(interleaved, offsets, channels);
 }
 
-Eigen::VectorXf HearSilence(const Hearing& hearing) {
-  if (!hearing) return {};
+Eigen::VectorXf RowOfSilence(const MusicFeatures& features) {
+  if (!features) return {};
   FeatureStream silence(kModelSampleRate, 1);
   silence.Finish();
-  return Hear(hearing, silence, 0);
+  return RowOf(features, silence, 0);
 }
 
 }  // namespace
@@ -71,12 +71,12 @@ void CheckSamples(std::span<const float> interleaved, int channels, int64_t firs
   CheckLevels(interleaved, channels, first_sample, "samples");
 }
 
-AudioFeed::AudioFeed(double sample_rate, int channels, int64_t first_sample, Hearing hearing)
+AudioFeed::AudioFeed(double sample_rate, int channels, int64_t first_sample, MusicFeatures features)
     : sample_rate_(sample_rate),
       channels_(channels),
       features_(sample_rate, channels, first_sample),
-      hearing_(hearing),
-      silence_(HearSilence(hearing)),
+      music_features_(features),
+      silence_(RowOfSilence(features)),
       whole_(first_sample == 0),
       offsets_(static_cast<size_t>(channels)),
       first_row_(features_.first_row()),
@@ -135,7 +135,7 @@ void AudioFeed::Publish() {
   std::lock_guard lock(mutex_);
   const int64_t end = std::min(computed, features_.audio_rows() + kTail);
   for (; published_ < end; ++published_) {
-    if (hearing_) rows_.push_back(Hear(hearing_, features_, published_));
+    if (music_features_) rows_.push_back(RowOf(music_features_, features_, published_));
     if (published_ >= first_sound_) sounds_.push_back(features_.Sound(published_));
   }
   features_.Forget(end);
@@ -159,7 +159,7 @@ const Eigen::VectorXf& AudioFeed::Heard(int64_t row) const {
 void AudioFeed::Forget(int64_t row) {
   std::lock_guard lock(mutex_);
   const int64_t first_kept = std::clamp(row, first_row_, published_);
-  if (hearing_) rows_.erase(rows_.begin(), rows_.begin() + (first_kept - first_row_));
+  if (music_features_) rows_.erase(rows_.begin(), rows_.begin() + (first_kept - first_row_));
   first_row_ = first_kept;
   for (; first_sound_ < row - kSoundMemory && !sounds_.empty(); ++first_sound_) sounds_.pop_front();
 }
@@ -174,7 +174,7 @@ std::vector<RowSound> AudioFeed::Sounds(int64_t row, int count) const {
 }
 
 Eigen::MatrixXf AudioFeed::History(int64_t frame, int count) const {
-  Eigen::MatrixXf history(hearing_.features, count);
+  Eigen::MatrixXf history(music_features_.count, count);
   std::lock_guard lock(mutex_);
   for (int i = 0; i < count; ++i) history.col(i) = Heard(frame - count + i);
   return history;

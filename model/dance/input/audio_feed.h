@@ -23,12 +23,12 @@ void CheckSamples(std::span<const float> interleaved, int channels, int64_t firs
 inline constexpr int kSoundMemory = kDynamicsMemory + kTypicalFrames;
 
 /// Converts samples to what a dance hears: the sound of each row, and the rows of the model's
-/// Hearing. One thread at a time may push; any thread may read. Readers never wait for a transform,
-/// because rows are computed outside the lock and published in short turns.
+/// MusicFeatures. One thread at a time may push; any thread may read. Readers never wait for a
+/// transform, because rows are computed outside the lock and published in short turns.
 class AudioFeed {
  public:
   /// Throws what FeatureStream throws.
-  AudioFeed(double sample_rate, int channels, int64_t first_sample, Hearing hearing = {});
+  AudioFeed(double sample_rate, int channels, int64_t first_sample, MusicFeatures features = {});
 
   /// Adds samples, and calls `on_rows` whenever it has added rows. Throws Error(kOutOfRange) unless
   /// `first_sample` is the next sample, Error(kInvalidArgument) for bad samples and beyond
@@ -73,7 +73,7 @@ class AudioFeed {
   double sample_rate_;
   int channels_;
   FeatureStream features_;
-  const Hearing hearing_;
+  const MusicFeatures music_features_;
   Eigen::VectorXf silence_;     // the model's row for silence; empty if the model does not hear
   bool whole_;                  // whether it begins with the music's first sample
   std::vector<float> offsets_;  // of the channels: their first samples

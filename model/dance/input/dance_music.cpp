@@ -183,7 +183,7 @@ void DanceMusic::WatchForTurn(const Segment& segment) {
   last_ = next_ - 1;
   // A model that hears gets the music of the transition itself.
   const bool listens =
-      planned_.audio_ != nullptr && planned_.dynamics_ > 0 && !planned_.model_->hearing;
+      planned_.audio_ != nullptr && planned_.dynamics_ > 0 && !planned_.model_->music_features;
   if (!listens || segment.from < kLevelRows) return;
   level_ = HearLevel(planned_.audio_->Sounds(segment.from, kLevelRows), turns_);
   next_ = segment.from + turns_.turn_after;
@@ -208,12 +208,12 @@ TransitionMusic PlannedMusic::Hear() const {
   TransitionMusic music{.beats = beats_, .id = id_};
   if (heard_) AddPredicted(&music.beats);
   if (audio_ == nullptr) return music;
-  if (model_->hearing) {
+  if (model_->music_features) {
     const auto heard = static_cast<int>(rows_end_ - from_);
     music.rows.emplace();
     music.rows->history = audio_->History(from_, model_->history_frames);
     music.rows->rows =
-        Eigen::MatrixXf::Zero(model_->hearing.features, static_cast<Eigen::Index>(to_ - from_));
+        Eigen::MatrixXf::Zero(model_->music_features.count, static_cast<Eigen::Index>(to_ - from_));
     music.rows->rows.leftCols(heard) = audio_->History(rows_end_, heard);
   }
   const EnergyShift energy = song_energy_

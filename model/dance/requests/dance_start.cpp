@@ -140,7 +140,7 @@ int64_t LatestFirstSample(int64_t first_frame, double sample_rate, const ModelIn
 int LatencyFrames(const DanceStart& config, const ModelInfo& model) {
   double seconds = 0;
   if (config.audio) {
-    if (model.hearing) seconds += kTypicalFrames / model.fps;
+    if (model.music_features) seconds += kTypicalFrames / model.fps;
     const FeatureStream stream(config.audio->sample_rate, config.audio->channels);
     seconds += static_cast<double>(stream.latency_samples()) / kModelSampleRate;
   }

@@ -183,7 +183,7 @@ std::optional<DanceScore::Next> DanceScore::TakeNext(size_t planned, int64_t rea
   if (segment == nullptr || EndsBy(segment->from) || !timeline_.IsCertain(segment->from))
     return std::nullopt;
   int64_t rows_end = segment->from;
-  if (model_.hearing) rows_end = std::min(segment->to, end_frame_.value_or(segment->to));
+  if (model_.music_features) rows_end = std::min(segment->to, end_frame_.value_or(segment->to));
   // Waits for at least one row, because the beats of the whole music are set before its first row
   // is ready.
   if (audio_ != nullptr && ready < std::max(rows_end, first_frame_ + 1)) return std::nullopt;

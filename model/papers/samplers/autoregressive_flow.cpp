@@ -56,7 +56,7 @@ TransitionWindow::TransitionWindow(const ModelInfo& model, int audio_features,
       codec_(model.skeleton),
       past_(static_cast<size_t>(model.history_frames * codec_.width())),
       audio_(static_cast<size_t>((model.history_frames + 1) * audio_features)),
-      music_(model.hearing ? spec.music : std::nullopt),
+      music_(model.music_features ? spec.music : std::nullopt),
       noise_(spec),
       last_(spec.history.back()),
       contacts_(model.skeleton) {

@@ -71,7 +71,7 @@ SamplerFactory LoadFlow(const Safetensors& content, const std::string& name,
   }
   ModelInfo info = InfoOf(checkpoint, kernels);
   info.takes_music = config.audio_features == kMfccCount;
-  if (config.hears_music) info.hearing = {config.audio_features, &HearMfcc};
+  if (config.hears_music) info.music_features = {config.audio_features, &HearMfcc};
   info.default_temperature = config.temperature;
   info.likelihood = true;
   return [info, config, device = request.device.name(), stepper] {

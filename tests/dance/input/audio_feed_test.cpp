@@ -14,15 +14,16 @@
 namespace choreo::audio_feed_test {
 
 // The features of a model that takes the mel bands themselves.
-const Hearing kHearing = {kMelBands, [](std::span<const double> bands, std::span<float> features) {
-                            std::ranges::copy(bands, features.begin());
-                          }};
+const MusicFeatures kBands = {kMelBands,
+                              [](std::span<const double> bands, std::span<float> features) {
+                                std::ranges::copy(bands, features.begin());
+                              }};
 
 Eigen::VectorXf RowOf(const AudioFeed& feed, int64_t row) { return feed.History(row + 1, 1); }
 
 TEST(AudioFeedTest, ForgottenRowsAreGoneAndTheOthersStay) {
   const std::vector<float> wave = TonesAndBursts();
-  AudioFeed whole(22050, 1, 0, kHearing), feed(22050, 1, 0, kHearing);
+  AudioFeed whole(22050, 1, 0, kBands), feed(22050, 1, 0, kBands);
   whole.Push(wave, 0, [] {});
   int64_t at = 0;
   for (; at < static_cast<int64_t>(wave.size()); at += 735) {
@@ -70,7 +71,7 @@ TEST(AudioFeedTest, KnowsSilenceAndChannelsThatCancelEachOther) {
 
 TEST(AudioFeedTest, RefusesPartialFramesAndNonFiniteSamples) {
   const std::vector<float> wave = Noise(2 * 30000, 5);
-  AudioFeed whole(44100, 2, 0, kHearing), feed(44100, 2, 0, kHearing);
+  AudioFeed whole(44100, 2, 0, kBands), feed(44100, 2, 0, kBands);
   whole.Push(wave, 0, [] {});
   feed.Push(std::span(wave).first(20000), 0, [] {});
   EXPECT_THROW(feed.Push(std::span(wave).first(3), 10000, [] {}), Error);

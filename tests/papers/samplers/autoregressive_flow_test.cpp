@@ -14,7 +14,7 @@ ModelInfo Model(bool hears_music) {
   ModelInfo model;
   model.skeleton = Skeleton::Smpl24();
   model.history_frames = 3;
-  if (hears_music) model.hearing.features = 2;
+  if (hears_music) model.music_features.count = 2;
   return model;
 }
 

@@ -36,7 +36,7 @@ TEST_F(InbetweenerStepperTest, IsDeterministicWithoutMusicInput) {
   const ModelInfo& model = sampler_->model();
   EXPECT_EQ(model.name, "harvey");
   EXPECT_TRUE(model.deterministic);
-  EXPECT_FALSE(model.hearing);
+  EXPECT_FALSE(model.music_features);
   EXPECT_FALSE(model.Supports(kRootPath));
   EXPECT_FALSE(SettingsUsedBy(*sampler_).kind);
 }
