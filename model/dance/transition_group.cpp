@@ -121,7 +121,11 @@ void TransitionGroup::Impl::Begin() {
   segment_ = {request_.FirstFrame(), request_.FirstFrame() + request_.frames};
   const int64_t from = segment_.from, end = segment_.to;
   if (const auto& target = request_.target)
-    segment_.key = Key{request_.target_id, end - 1, target->pose, target->mask, request_.hit};
+    segment_.key = Key{.id = request_.target_id,
+                       .frame = end - 1,
+                       .pose = target->pose,
+                       .mask = target->mask,
+                       .hit = request_.hit};
   const auto changes = controls_.Set(request_.controls, from, "controls");
   // All candidates have the same request, so it is checked once and its warnings are sent once.
   DanceMusic music(model_, request_, request_.Dynamics(), audio_.get(), /*detects=*/false);

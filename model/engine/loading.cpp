@@ -37,7 +37,9 @@ KernelSet FirstIndependent(const std::vector<KernelSet>& sets, std::vector<std::
 }
 
 std::optional<KernelSet> ChooseKernels(const EngineRequest& request) {
-  const auto& [device, kind, name, notes] = request;
+  const Device& device = request.device;
+  const EngineKind kind = request.kind;
+  const std::string& name = request.kernels;
   const bool on_cpu = device.kind == Device::Kind::kCpu;
   if (kind == EngineKind::kTorch || (kind == EngineKind::kAuto && !on_cpu)) return std::nullopt;
   if (!on_cpu)
@@ -53,7 +55,7 @@ std::optional<KernelSet> ChooseKernels(const EngineRequest& request) {
     if (name.empty() || name == set.products->name) named.push_back(set);
   }
   if (named.empty()) throw InvalidArgument("kernels", '"' + name + "\" is none of " + known);
-  return FirstIndependent(named, notes);
+  return FirstIndependent(named, request.notes);
 }
 
 std::string FingerprintOf(const std::string& name, const std::string& hash,

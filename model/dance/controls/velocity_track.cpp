@@ -49,7 +49,7 @@ bool Names(const VelocityRequest& request, BodyPart part) {
 /// The speed that a valid request sets for one of its parts, metres per frame.
 float SpeedAt(const VelocityRequest& request, int64_t frame, BodyPart part,
               const ModelInfo& model) {
-  const auto& [frames, parts, factors, speeds, reference] = request;
+  const std::vector<std::string>& parts = request.parts;
   const std::string_view name = kBodyPartNames[static_cast<size_t>(part)];
   const auto column =
       parts.empty() ? 0 : static_cast<size_t>(std::ranges::find(parts, name) - parts.begin());
@@ -57,11 +57,11 @@ float SpeedAt(const VelocityRequest& request, int64_t frame, BodyPart part,
   const auto value = [&](size_t row) {
     return static_cast<float>(values[row * Columns(request) + column]);
   };
-  const RowPlace place = PlaceAmong(frames, frame);
+  const RowPlace place = PlaceAmong(request.frames, frame);
   float asked = value(place.row);
   if (place.share > 0) asked += place.share * (value(place.row + 1) - asked);
   if (IsAbsolute(request)) return asked;
-  return asked * FindReference(model, reference)->speeds[static_cast<size_t>(part)];
+  return asked * FindReference(model, request.reference)->speeds[static_cast<size_t>(part)];
 }
 
 }  // namespace

@@ -154,11 +154,11 @@ int64_t DanceMusic::GiveBeats(std::span<const double> seconds, int64_t from,
   count_ += seconds.size();
   const auto ahead = std::ranges::lower_bound(seconds, planned_.Seconds(from));
   if (ahead != seconds.end()) {
-    given_.push_back({from,
-                      seconds.front(),
-                      {ahead, seconds.end()},
-                      {downbeats.begin(), downbeats.end()},
-                      confidence});
+    given_.push_back({.from = from,
+                      .begin = seconds.front(),
+                      .seconds = {ahead, seconds.end()},
+                      .downbeats = {downbeats.begin(), downbeats.end()},
+                      .confidence = confidence});
   }
   return ahead - seconds.begin();
 }
