@@ -30,9 +30,9 @@ enum class Remedy {
   kAllowInexact,  ///< allow a dance to continue in another way
 };
 
-/// The only exception type of this project. `field()` is the path of the offending value in the
-/// caller's terms, such as "keyframes[3].rotations[16]", or empty. `what()` names the field, the
-/// value and the limit.
+/// What this project throws; other exceptions derive from it. `field()` is the path of the
+/// offending value in the caller's terms, such as "keyframes[3].rotations[16]", or empty. `what()`
+/// names the field, the value and the limit.
 class Error : public std::runtime_error {
  public:
   Error(ErrorCode code, std::string field, const std::string& message,

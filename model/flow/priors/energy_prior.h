@@ -11,8 +11,8 @@
 namespace choreo {
 
 /// A prior for a window's energy where no control sets it: given what is known of the window, the
-/// body parts' EnergyLevels are Gaussian. Without this prior every dance would have the mean
-/// energy. Measured in training. Thread-safe.
+/// body parts' levels (EnergyLevel) are Gaussian. Without this prior every dance would have the
+/// mean energy. Measured in training. Thread-safe.
 class EnergyPrior {
   static constexpr double kEverything = 1e3;
 
