@@ -6,7 +6,6 @@
 
 #include "model/core/error.h"
 #include "model/core/range.h"
-#include "model/core/text/nearest.h"
 #include "model/motion/pose/pose_limits.h"
 
 namespace choreo {

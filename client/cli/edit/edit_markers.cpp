@@ -14,6 +14,7 @@
 #include "model/core/files/small_extension.h"
 #include "model/core/grid.h"
 #include "model/core/rounded.h"
+#include "model/core/text/nearest.h"
 
 namespace choreo::cli {
 namespace {

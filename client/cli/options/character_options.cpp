@@ -10,6 +10,7 @@
 #include "model/core/error.h"
 #include "model/core/files/small_extension.h"
 #include "model/fit/bones/finger_bones.h"
+#include "model/fit/bones/transfer.h"
 #include "model/fit/retarget.h"
 #include "model/formats/gltf/character_file.h"
 
