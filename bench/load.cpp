@@ -343,7 +343,7 @@ class Load {
 
   int64_t DanceAtOnce(const client::Audio& song, int seed) {
     client::DanceConfig config{.seed = static_cast<uint64_t>(seed), .audio = song.format};
-    config.temperature = options_.temperature;
+    config.manner.temperature = options_.temperature;
     const auto dance = client_.StartDance(config);
     SendKeys(*dance, options_.seconds, 2);
     dance->SendSamples(song.samples);

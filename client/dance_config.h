@@ -8,7 +8,6 @@
 
 #include "model/core/hand_pose.h"
 #include "model/core/hit.h"
-#include "model/core/passage.h"
 #include "model/messages/dance_manner.h"
 #include "model/motion/controls/control_request.h"
 #include "model/motion/motion.h"
@@ -67,10 +66,7 @@ struct DanceConfig {
   std::string model = {};  ///< empty: the server's first
   double fps = 0;          ///< of the frames received, 1 to 120; 0: the model's
   std::optional<uint64_t> seed = {};
-  std::optional<double> temperature = {};  ///< 0 to 2
-  std::string style = {};                  ///< one of the model's; empty: any
-  /// 0 to 1: how closely the dance's energy follows the music's; default: kDefaultDynamics
-  std::optional<double> music_dynamics = {};
+  DanceManner manner = {};
   /// Poses right before the dance, at the model's rate, oldest first. Empty: the dancer stands at
   /// rest, facing +Z, at the origin or, if a path begins at frame 0, at the path's beginning.
   std::vector<Pose> history = {};
@@ -79,23 +75,7 @@ struct DanceConfig {
   AudioFormat audio = {};
   std::optional<int64_t> frames =
       {};  ///< the dance ends before this frame; none: with the music or the last key
-  /// Times of the music's beats, seconds, strictly ascending, 0 to 600. Limbs are fastest on beats,
-  /// and Beat messages and the report contain them. Empty: the server finds the beats of a kFile,
-  /// and predicts each transition's beats from the 12 s before it for kPcmFloat.
-  std::vector<double> music_beats = {};
-  /// Times of the beats that begin a bar, seconds, for Beat messages.
-  std::vector<double> music_downbeats = {};
-  /// Identifies the music, as a part of the seed. 0: the server computes it for a kFile; none for
-  /// kPcmFloat.
-  uint64_t music_id = 0;
-  /// The API's music_passages: where the music repeats, and the dance with it. Empty: the server
-  /// finds the passages of a kFile.
-  std::vector<Passage> music_passages = {};
-  /// The API's music_energies: the energy of the whole song, every half second, -2 to 2. Empty: the
-  /// server measures it in a kFile, and in the music before each transition for kPcmFloat.
-  std::vector<float> music_energies = {};
-  /// 0 to 1: how much a repeated dance differs; default: kDefaultVariation
-  std::optional<double> variation = {};
+  KnownMusic known = {};  ///< of the music
   /// Acts like RemoteDance::GenerateUntil before any other request. Keys then permit no frames, so
   /// that they can be edited.
   std::optional<int64_t> generate_until = {};

@@ -131,8 +131,8 @@ class Edit {
     TransitionRequest request;
     request.config.model = options_.model.name;
     request.config.seed = options_.seed;
-    options_.DanceManner::SetIn(&request.config);
-    options_.KnownMusic::SetIn(&request.config);
+    request.config.manner = options_.manner;
+    request.config.known = options_.known;
     request.config.controls = options_.controls;
     request.frames = static_cast<int>(std::min<int64_t>(frames, 1 << 30));
     SetMusic(options_.audio, options_.model, first, &request);

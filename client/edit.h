@@ -26,10 +26,12 @@ struct FinishedDance {
 };
 
 /// Settings for the new frames.
-struct EditOptions : DanceManner, KnownMusic {
-  ModelDescription model = {};   ///< on the client's server
-  uint64_t seed = 0;             ///< the same seed gives the same edit
+struct EditOptions {
+  ModelDescription model = {};  ///< on the client's server
+  uint64_t seed = 0;            ///< the same seed gives the same edit
+  DanceManner manner = {};
   Audio audio = {};              ///< the song from its start, kPcmFloat; or none
+  KnownMusic known = {};         ///< of the song
   ControlRequest controls = {};  ///< for the new frames
 };
 

@@ -13,11 +13,11 @@ DanceConfig ConfigFor(const FinishedDance& dance, const EditOptions& options) {
   config.model = options.model.name;
   config.fps = dance.motion.fps;
   config.seed = options.seed;
-  options.DanceManner::SetIn(&config);
-  options.KnownMusic::SetIn(&config);
+  config.manner = options.manner;
+  config.known = options.known;
   config.frames = CountModelFrames(dance, options.model);
   const double end_s = static_cast<double>(*config.frames) / options.model.fps;
-  std::erase_if(config.music_passages,
+  std::erase_if(config.known.music_passages,
                 [end_s](const Passage& passage) { return passage.from >= end_s; });
   config.controls = options.controls;
   return config;

@@ -28,8 +28,8 @@ v1::DanceConfig ToProto(const DanceConfig& config) {
   out.set_frame_rate(config.fps);
   out.set_encoding(v1::ROTATION_ENCODING_AXIS_ANGLE);
   if (config.seed) out.set_seed(*config.seed);
-  wire::Write(DanceManner::Of(config), &out);
-  wire::Write(KnownMusic::Of(config), &out);
+  wire::Write(config.manner, &out);
+  wire::Write(config.known, &out);
   if (config.continuation) {
     if (!out.mutable_continuation()->ParseFromString(config.continuation->bytes)) {
       throw InvalidArgument("continuation", "the bytes are not those of a continuation");

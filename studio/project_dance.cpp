@@ -18,8 +18,8 @@ namespace {
 client::EditOptions EditOptionsFor(const StudioContext& context, const Song* song,
                                    const client::DanceConfig& config) {
   client::EditOptions options;
-  static_cast<DanceManner&>(options) = DanceManner::Of(config);
-  static_cast<KnownMusic&>(options) = KnownMusic::Of(config);
+  options.manner = config.manner;
+  options.known = config.known;
   options.model = context.model();
   options.seed = config.seed.value_or(0);
   options.controls = config.controls;
@@ -59,15 +59,15 @@ ProjectDance DanceOf(const StudioContext& context, const authoring::Project& pro
   ProjectDance dance{.keys = project.keys, .controls = project.controls};
   client::DanceConfig& config = dance.config;
   config.seed = project.seed.value_or(0);
-  project.SetIn(&config);
+  config.manner = project;
   config.frames = std::max<int64_t>(1, std::llround(seconds * model.fps));
   config.controls = project.controls.Read(model, context.server(), CountsOf(project, song));
   if (song) {
     authoring::NoteBehind(std::string(kUnnamed) + ":beats", project.beats, 0,
                           authoring::HeardSeconds(song->music));
-    config.music_beats = project.beats;
-    config.music_downbeats = project.downbeats;
-    authoring::ConfigureMusic(song->music, seconds, &config);
+    config.known.music_beats = project.beats;
+    config.known.music_downbeats = project.downbeats;
+    authoring::FillInMusic(song->music, seconds, &config.known);
   }
   authoring::FitIntoDance({*config.frames, model.fps}, &dance.keys);
   dance.keys = authoring::ByTime(std::move(dance.keys), model.fps);

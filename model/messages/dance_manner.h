@@ -11,7 +11,7 @@
 #include "model/core/range.h"
 
 /// The parts of a request that say how to dance and what is known of the music. Server, projects,
-/// reports and edits share them; client::DanceConfig has members of the same names.
+/// reports and edits share them.
 namespace choreo {
 
 /// What the API calls a setting, and the range of one that is a number.
@@ -59,16 +59,6 @@ struct DanceManner {
     VisitSettings(check, *this);
   }
 
-  static DanceManner Of(const auto& request) {
-    DanceManner manner;
-    VisitSettings([](const SettingRow&, const auto& from, auto& to) { to = from; }, request,
-                  manner);
-    return manner;
-  }
-  void SetIn(auto* request) const {
-    VisitSettings([](const SettingRow&, const auto& from, auto& to) { to = from; }, *this,
-                  *request);
-  }
   /// Takes `other`'s values for the settings that are empty here.
   void FillFrom(const DanceManner& other) {
     const auto fill = [](const SettingRow&, const auto& from, auto& to) {

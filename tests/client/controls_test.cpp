@@ -59,10 +59,12 @@ TEST(ControlsTest, BothCallsTakeAStyle) {
   const Client client({.addresses = {server.address()}});
   EXPECT_EQ(client.GetServerInfo().models.at(0).styles, (std::vector<std::string>{"calm", "wild"}));
   const auto danced = [&](const std::string& style) {
-    return client.Dance({.seed = 1, .style = style, .frames = 20}, {}, {}).motion.frames.back();
+    return client.Dance({.seed = 1, .manner = {.style = style}, .frames = 20}, {}, {})
+        .motion.frames.back();
   };
   const auto transition = [&](const std::string& style) {
-    return client.GenerateTransition({.config = {.seed = 1, .style = style}, .frames = 20})
+    return client
+        .GenerateTransition({.config = {.seed = 1, .manner = {.style = style}}, .frames = 20})
         .candidates.at(0)
         .motion.frames.back();
   };

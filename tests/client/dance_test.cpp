@@ -67,11 +67,13 @@ TEST(DanceTest, HitsItsKeysToTheMusic) {
   TestServer server;
   const Client client({.addresses = {server.address()}});
   int blocks = 0;
-  const DanceResult dance = client.Dance(
-      {.seed = 4, .frames = 250, .music_beats = {0.5, 1, 1.5, 2, 2.5}, .music_downbeats = {1}},
-      FourKeys(), ClicksAudio(9), [&](const Message& message) {
-        blocks += std::holds_alternative<FrameBlock>(message) ? 1 : 0;
-      });
+  const DanceResult dance =
+      client.Dance({.seed = 4,
+                    .frames = 250,
+                    .known = {.music_beats = {0.5, 1, 1.5, 2, 2.5}, .music_downbeats = {1}}},
+                   FourKeys(), ClicksAudio(9), [&](const Message& message) {
+                     blocks += std::holds_alternative<FrameBlock>(message) ? 1 : 0;
+                   });
   EXPECT_GT(blocks, 1);
   EXPECT_EQ(dance.header.seed, 4U);
   EXPECT_EQ(dance.motion.fps, 30);

@@ -47,7 +47,7 @@ TEST_F(StudioTest, DancesAsTheClientLibraryDoes) {
   key.pose.rotations =
       Eigen::Map<const Eigen::Matrix3Xf>(kick.pose().rotations().data(), 3, 24).cast<double>();
   client::DanceConfig config{.seed = 7, .frames = 120};
-  authoring::ConfigureMusic(song.music, song.heard.seconds(), &config);
+  authoring::FillInMusic(song.music, song.heard.seconds(), &config.known);
   const client::DanceResult own = studio.context().client().Dance(config, {key}, song.audio);
   ASSERT_EQ(own.motion.frames.size(), 120U);
   for (int frame = 0; frame < 120; ++frame) {
@@ -298,8 +298,8 @@ TEST_F(StudioTest, AProjectSaysHowToDance) {
   project.set_music_dynamics(1);
   project.set_variation(0);
   const client::DanceConfig config = DanceOf(context, project, nullptr).config;
-  EXPECT_EQ(config.music_dynamics, 1);
-  EXPECT_EQ(config.variation, 0);
+  EXPECT_EQ(config.manner.music_dynamics, 1);
+  EXPECT_EQ(config.manner.variation, 0);
   EXPECT_EQ(config.seed, 7U);
   EXPECT_EQ(config.frames, 60);
 }

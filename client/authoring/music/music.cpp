@@ -78,17 +78,17 @@ std::vector<double> BeatsBefore(const Music& music, double seconds) {
   return beats;
 }
 
-void ConfigureMusic(const Music& music, double seconds, client::DanceConfig* config) {
-  if (config->music_beats.empty()) {
-    config->music_beats = music.track.Seconds();
-    config->music_downbeats = music.track.DownbeatSeconds();
+void FillInMusic(const Music& music, double seconds, KnownMusic* known) {
+  if (known->music_beats.empty()) {
+    known->music_beats = music.track.Seconds();
+    known->music_downbeats = music.track.DownbeatSeconds();
   }
-  for (std::vector<double>* beats : {&config->music_beats, &config->music_downbeats})
+  for (std::vector<double>* beats : {&known->music_beats, &known->music_downbeats})
     std::erase_if(*beats, [seconds](double beat) { return beat >= seconds; });
-  config->music_id = music.id;
-  config->music_energies = music.energies;
-  config->music_passages = music.passages;
-  std::erase_if(config->music_passages,
+  known->music_id = music.id;
+  known->music_energies = music.energies;
+  known->music_passages = music.passages;
+  std::erase_if(known->music_passages,
                 [seconds](const Passage& passage) { return passage.from >= seconds; });
 }
 

@@ -47,12 +47,12 @@ double HeardSeconds(const Music& music);
 /// The counts of the whole song.
 Counts CountsOf(const Music& music);
 
-/// Times of the beats before `seconds`, for DanceConfig::music_beats.
+/// Times of the beats before `seconds`, for KnownMusic::music_beats.
 std::vector<double> BeatsBefore(const Music& music, double seconds);
 
-/// Sets the configuration's beats, downbeats, passages, energies and music id, for a dance of
-/// `seconds`. Keeps the configuration's own beats before `seconds`.
-void ConfigureMusic(const Music& music, double seconds, client::DanceConfig* config);
+/// Fills in what is known of the music, for a dance of `seconds`. Keeps given beats before
+/// `seconds`.
+void FillInMusic(const Music& music, double seconds, KnownMusic* known);
 
 /// Returns the samples to send for a dance of `seconds`: the song's beginning.
 client::Audio AudioFor(const DecodedAudio& song, double seconds);

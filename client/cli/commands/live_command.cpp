@@ -142,13 +142,13 @@ DanceSettings SettingsFor(const LiveCommand& options, const live::LiveDance& liv
   settings.song_start_s = options.song_start_s;
   if (options.beats == authoring::BeatOptions()) return settings;
   // Edits count like `analyze` with these options.
-  client::DanceConfig config;
+  KnownMusic known;
   const double seconds = Duration(live.motion());
-  authoring::ConfigureMusic(
+  authoring::FillInMusic(
       authoring::ReadMusic(options.song, seconds, options.song_start_s, options.beats), seconds,
-      &config);
-  settings.beats = config.music_beats;
-  settings.downbeats = config.music_downbeats;
+      &known);
+  settings.beats = known.music_beats;
+  settings.downbeats = known.music_downbeats;
   return settings;
 }
 
@@ -172,7 +172,7 @@ void Run(const LiveCommand& options) {
   dance.config.model = options.model;
   dance.config.fps = options.fps;
   dance.config.seed = options.seed.value_or(0);
-  options.SetIn(&dance.config);
+  dance.config.manner = options;
   dance.beats = options.beats.hint;
   dance.ahead_s = options.ahead_s;
   dance.look_ahead_s = options.look_ahead_s;

@@ -97,7 +97,7 @@ void Run(const TransitionOptions& options) {
   client::TransitionRequest request;
   request.config.model = options.model;
   request.config.seed = options.seed.value_or(0);
-  options.SetIn(&request.config);
+  request.config.manner = options;
   const authoring::WrittenTime at = authoring::ParseTime(options.at, "--at");
   const double seconds = options.frames / model.fps;
   std::optional<authoring::Music> music;
@@ -136,7 +136,7 @@ void Run(const TransitionOptions& options) {
                                         InFull(authoring::Seconds(song)) + " s");
     }
     client::SetMusic(song, model, request.config.first_frame, &request);
-    authoring::ConfigureMusic(*music, end_s, &request.config);
+    authoring::FillInMusic(*music, end_s, &request.config.known);
   }
   const client::TransitionResult result = Generate(connection.client(), request, options.controls);
   ShowWarnings(result.warnings, {model.fps});

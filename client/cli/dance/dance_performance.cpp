@@ -153,14 +153,14 @@ client::DanceResult Dance(const client::Client& client, const client::DanceConfi
 
 DanceSettings SettingsFor(const DanceOptions& options, const client::Header& header,
                           const client::DanceConfig& config) {
-  DanceSettings settings{DanceManner::Of(config), header.model, header.seed};
+  DanceSettings settings{config.manner, header.model, header.seed};
   settings.controls = config.controls;
   if (options.song.empty() || options.song == "-") return settings;
   settings.song = options.song;
   settings.song_start_s = options.song_start_s;
   if (!options.project_beats.empty() || options.beats != authoring::BeatOptions()) {
-    settings.beats = config.music_beats;
-    settings.downbeats = config.music_downbeats;
+    settings.beats = config.known.music_beats;
+    settings.downbeats = config.known.music_downbeats;
   }
   return settings;
 }
@@ -202,12 +202,12 @@ PlannedDance Plan(const DanceOptions& options, const std::optional<authoring::Mu
   config.model = options.model;
   config.fps = options.fps;
   config.seed = options.seed.value_or(0);
-  options.SetIn(&config);
+  config.manner = options;
   config.frames = length.frames;
   config.controls = controls;
-  config.music_beats = options.project_beats;
-  config.music_downbeats = options.project_downbeats;
-  if (music) authoring::ConfigureMusic(*music, seconds, &config);
+  config.known.music_beats = options.project_beats;
+  config.known.music_downbeats = options.project_downbeats;
+  if (music) authoring::FillInMusic(*music, seconds, &config.known);
   if (music && model.takes_music) plan.audio = authoring::AudioFor(music->audio, seconds);
   return plan;
 }
@@ -224,7 +224,7 @@ Performance Perform(const PlannedDance& plan, const Connection& connection,
   written.settings = SettingsFor(options, dance.header, config);
   written.warnings = faults;
   written.warnings.insert(written.warnings.end(), dance.warnings.begin(), dance.warnings.end());
-  written.beat_hit_chance = BeatHitChance(config.music_beats, length.frames, length.fps);
+  written.beat_hit_chance = BeatHitChance(config.known.music_beats, length.frames, length.fps);
   return {std::move(dance), std::move(written)};
 }
 

@@ -137,7 +137,7 @@ std::vector<int64_t> DelaysOf(const DanceOptions& options, const authoring::Danc
   for (size_t i = 0; i < stage.dancers.size(); ++i) {
     const PlannedDance& plan = dances[dance_of[i]].plan;
     const std::string field = options.dancers + ":dancers[" + std::to_string(i) + "].after";
-    delays.push_back(authoring::FramesLater(stage.dancers[i].after, plan.config.music_beats,
+    delays.push_back(authoring::FramesLater(stage.dancers[i].after, plan.config.known.music_beats,
                                             plan.length.fps, plan.length.frames, field));
   }
   return delays;

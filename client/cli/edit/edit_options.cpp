@@ -194,23 +194,19 @@ std::tuple<client::EditOptions, authoring::Counts> HowToDance(const EditOptions&
   client::EditOptions edit;
   edit.model = connection.model(options.model);
   edit.seed = options.seed.value_or(0);
-  options.SetIn(&edit);
+  edit.manner = options;
   const auto music = ReadSong(options, end_s);
   const authoring::Counts counts = CountsOf(options, music);
   if (music) {
     edit.audio = authoring::AudioFor(music->audio, end_s);
-    std::tie(edit.music_beats, edit.music_downbeats) = BeatsOf(options, music);
-    for (std::vector<double>* beats : {&edit.music_beats, &edit.music_downbeats})
-      std::erase_if(*beats, [&](double beat) { return beat >= end_s; });
-    edit.music_passages = music->passages;
-    edit.music_energies = music->energies;
-    edit.music_id = music->id;
+    std::tie(edit.known.music_beats, edit.known.music_downbeats) = BeatsOf(options, music);
+    authoring::FillInMusic(*music, end_s, &edit.known);
   }
   edit.controls = options.controls.Read(edit.model, connection.server(), counts);
   FillControls(options.settings.controls, edit.model, &edit.controls);
-  if (edit.style != options.settings.style) NoteStyle(edit.model, edit.style);
+  if (edit.manner.style != options.settings.style) NoteStyle(edit.model, edit.manner.style);
   NoteDeterministic(edit.model, {{"--seed", options.seed != options.settings.seed},
-                                 {"--temperature", edit.temperature.value_or(0) != 0}});
+                                 {"--temperature", edit.manner.temperature.value_or(0) != 0}});
   return {std::move(edit), counts};
 }
 

@@ -18,8 +18,8 @@ void RenameBeats(const EditOptions& options, const client::EditOptions& changed,
   settings->beats.clear();
   settings->downbeats.clear();
   if (options.beats == authoring::BeatOptions{.beats = "auto"}) return;  // as are found in the song
-  settings->beats = changed.music_beats;
-  settings->downbeats = changed.music_downbeats;
+  settings->beats = changed.known.music_beats;
+  settings->downbeats = changed.known.music_downbeats;
 }
 
 }  // namespace
@@ -62,7 +62,7 @@ void DanceOtherwise(const EditOptions& options, WorkingDance* dance) {
   const auto& path = changed.controls.root_path;
   const bool begins_later = options.changed == DanceChange::kPath && path->frames.front() > 0;
   dance->DanceAnew("danced anew", begins_later ? path->frames.front() : -1, dance->times().frames);
-  static_cast<DanceManner&>(settings) = changed;
+  static_cast<DanceManner&>(settings) = changed.manner;
   settings.seed = changed.seed;
   settings.take_seed.reset();
   ControlRequest::VisitControls(

@@ -321,10 +321,10 @@ TEST_F(MusicBeats, AProjectsCountsSayWhichBeatsBeginABar) {
     "beats": [[0.5, 6], [1, 1], [1.5, 2], [2, 3], [2.5, 4], [4, 1]]})");
   const Project project = ParseProject(file, "p.json");
   EXPECT_THAT(project.downbeats, ElementsAre(1, 2.5, 4));
-  client::DanceConfig config{.music_beats = project.beats, .music_downbeats = project.downbeats};
-  ConfigureMusic({}, 3, &config);
-  EXPECT_THAT(config.music_beats, ElementsAre(0.5, 1, 1.5, 2, 2.5));
-  EXPECT_THAT(config.music_downbeats, ElementsAre(1, 2.5));
+  KnownMusic known{.music_beats = project.beats, .music_downbeats = project.downbeats};
+  FillInMusic({}, 3, &known);
+  EXPECT_THAT(known.music_beats, ElementsAre(0.5, 1, 1.5, 2, 2.5));
+  EXPECT_THAT(known.music_downbeats, ElementsAre(1, 2.5));
 }
 
 }  // namespace choreo::authoring::music_beats_test
