@@ -271,7 +271,7 @@ class Load {
     client::TransitionRequest request;
     request.frames = frames;
     request.candidates = candidates;
-    request.target = authoring::PoseLibrary().front().pose;
+    request.target = {.pose = authoring::PoseLibrary().front().pose};
     return request;
   }
 

@@ -37,14 +37,12 @@ v1::GenerateTransitionRequest MakeRequest(const TransitionRequest& request) {
   config.audio = request.audio.format;
   *out.mutable_config() = ToProto(config);
   out.set_frames(request.frames);
-  if (request.target) {
-    *out.mutable_target() = ToProto(*request.target, request.target_mask);
-    if (!request.target_mask.joints.empty()) {
-      *out.mutable_target_mask() = ToProto(request.target_mask);
-    }
+  if (const auto& target = request.target) {
+    *out.mutable_target() = ToProto(target->pose, target->mask);
+    if (!target->mask.joints.empty()) *out.mutable_target_mask() = ToProto(target->mask);
+    if (target->hit) out.set_target_hit(*target->hit);
+    out.set_target_id(target->id);
   }
-  if (request.target_hit) out.set_target_hit(*request.target_hit);
-  out.set_target_id(request.target_id);
   switch (request.audio.format.kind) {
     case AudioKind::kNone:
       break;

@@ -147,10 +147,9 @@ using choreo::RankBy;
 struct TransitionRequest {
   DanceConfig config = {};  ///< its audio format is taken from `audio`
   int frames = 0;           ///< at the model's rate, 1 to ModelDescription::max_transition_frames
-  std::optional<Pose> target = {};  ///< at the last frame
-  PoseMask target_mask = {};
-  std::optional<double> target_hit = {};  ///< KeyPose::hit; with `after` only on the way there
-  std::string target_id = {};  ///< the target's name in warnings and the report; empty: "target"
+  /// At the last frame; its own frame and time are not read. Hit, with `after`, only on the way
+  /// there. An empty id is "target" in warnings and the report.
+  std::optional<KeyPose> target = {};
   Audio audio = {};
   int64_t audio_first_sample =
       0;  ///< number of the first sample in `audio`, counted from the start of the music

@@ -210,16 +210,9 @@ void CheckKeyEdit(int64_t first, int64_t last, int64_t from, int64_t to, int64_t
 /// The end of one of an edit's transitions: a pose, or none.
 struct Stop {
   int64_t frame = 0;
-  std::optional<Pose> pose = {};
-  PoseMask mask = {};
-  std::string id = {};
-  std::optional<double> hit = {};
+  std::optional<KeyPose> key = {};
   bool held = false;  // the same pose as before
 };
-
-Stop StopAt(int64_t frame, const KeyPose& key) {
-  return {frame, key.pose, key.mask, key.id, key.hit};
-}
 
 /// Adds stops without a pose where one transition cannot span the way to the next stop.
 std::vector<Stop> Spanned(int64_t from, const std::vector<Stop>& stops, int64_t longest) {
@@ -246,13 +239,12 @@ Way WayThrough(const Edit& work, int64_t from, std::vector<Stop> stops, int64_t 
                const std::string& to_id, const std::optional<double>& to_hit) {
   const bool leads_on = to < work.frames();
   if (leads_on)
-    stops.push_back({to,
-                     work.pose(to),
-                     {},
-                     to_id.empty()
-                         ? "the dance at " + Rounded(static_cast<double>(to) / work.fps()) + " s"
-                         : to_id,
-                     to_hit});
+    stops.push_back(
+        {to, KeyPose{.id = to_id.empty() ? "the dance at " +
+                                               Rounded(static_cast<double>(to) / work.fps()) + " s"
+                                         : to_id,
+                     .pose = work.pose(to),
+                     .hit = to_hit}});
   return {from, Spanned(from, stops, work.longest()), to, leads_on};
 }
 
@@ -264,10 +256,7 @@ TransitionRequest RequestFor(const Edit& work, const Way& way, size_t index,
   const int64_t begin = index == 0 ? way.from : way.stops[index - 1].frame;
   TransitionRequest request = index == 0 ? work.After(way.from, stop.frame - way.from)
                                          : work.After(before, stop.frame - begin);
-  request.target = stop.pose;
-  request.target_mask = stop.mask;
-  request.target_hit = stop.hit;
-  request.target_id = stop.id;
+  request.target = stop.key;
   // Omits a path that covers none of this transition: the server would warn that it has no effect.
   auto& path = request.config.controls.root_path;
   if (path && !path->frames.empty() &&
@@ -345,7 +334,7 @@ Way WayAcross(const Edit& work, const Gap& gap) {
       throw InvalidArgument("keys", key.id + " at " + NameOfFrame(frame) + " is not between " +
                                         NameOfFrame(before) + " and " + NameOfFrame(gap.to));
     }
-    stops.push_back(StopAt(frame, key));
+    stops.push_back({frame, key});
     before = frame;
   }
   // The end is free if no frame follows.
@@ -391,9 +380,10 @@ EditedDance SetKey(const Client& client, const FinishedDance& dance, const EditO
                    const KeyEdit& edit) {
   Edit work(client, dance, options);
   std::vector<Stop> stops;
-  stops.push_back(StopAt(work.FrameOf(edit.key), edit.key));
+  stops.push_back({work.FrameOf(edit.key), edit.key});
   for (const KeyPose& key : edit.held) {
-    stops.push_back({work.FrameOf(key), key.pose, key.mask, key.id, {}, true});
+    stops.push_back({work.FrameOf(key), key, true});
+    stops.back().key->hit.reset();
     if (stops.back().frame - std::prev(stops.end(), 2)->frame < kMinKeyDistance) {
       throw InvalidArgument("key.frame", std::to_string(stops.back().frame) + " of a key that is " +
                                              "held is not " +
@@ -434,8 +424,7 @@ EditedDance CloseLoop(const Client& client, const FinishedDance& dance, const Ed
   }
   // Leads back from the last frame to the first one.
   TransitionRequest request = work.After(from, work.frames() + added - from);
-  request.target = work.pose(0);
-  request.target_id = "the beginning";
+  request.target = {.id = "the beginning", .pose = work.pose(0)};
   request.after = work.Leading(1);
   const TransitionCandidate back = work.Generate(request, true).front();
   work.Splice({from + 1,

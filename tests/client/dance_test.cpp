@@ -383,14 +383,14 @@ TEST(TransitionTest, MakesCandidatesThatAllArrive) {
   request.config.seed = 3;
   request.config.history = {FindLibraryPose("contrapposto").pose};
   request.frames = 45;
-  request.target = FindLibraryPose("kick").pose;
+  request.target = {.pose = FindLibraryPose("kick").pose};
   request.audio = ClicksAudio(2);
   request.candidates = 3;
   const TransitionResult result = client.GenerateTransition(request);
   ASSERT_EQ(result.candidates.size(), 3U);
   for (const TransitionCandidate& candidate : result.candidates) {
     ASSERT_EQ(candidate.motion.frames.size(), 45U);
-    EXPECT_LE(ComparePoses(Body(), candidate.motion.frames.back(), *request.target).position_m,
+    EXPECT_LE(ComparePoses(Body(), candidate.motion.frames.back(), request.target->pose).position_m,
               0.001);
     ASSERT_EQ(candidate.report.keys.size(), 1U);
     EXPECT_EQ(candidate.continuation.frame, 45);
@@ -403,7 +403,7 @@ TEST(TransitionTest, ContinuesIntoADance) {
   TransitionRequest request;
   request.config.seed = 3;
   request.frames = 30;
-  request.target = FindLibraryPose("kick").pose;
+  request.target = {.pose = FindLibraryPose("kick").pose};
   const TransitionResult transition = client.GenerateTransition(request);
   const DanceResult dance =
       client.Dance({.continuation = transition.candidates[0].continuation, .frames = 90}, {}, {});
@@ -417,7 +417,7 @@ TEST(TransitionTest, TriesAnotherReplicaWhenOneIsAway) {
   const Client client(FastRetries({"127.0.0.1:1", server.address()}));
   TransitionRequest request;
   request.frames = 10;
-  request.target = FindLibraryPose("kick").pose;
+  request.target = {.pose = FindLibraryPose("kick").pose};
   EXPECT_EQ(client.GenerateTransition(request).candidates.front().motion.frames.size(), 10U);
 }
 

@@ -125,9 +125,7 @@ void Run(const TransitionOptions& options) {
   if (options.controls.IsOption(kRootPath) && !to.has_place) target.mask.root_position = false;
   if (options.hit) target.hit = options.hit;
   if (!options.hands.empty()) target.hands = FindHandPose(options.hands);
-  request.target = target.pose;
-  request.target_mask = target.mask;
-  request.target_hit = target.hit;
+  request.target = target;
   if (music) {
     const double end_s = at_s + seconds;
     const client::Audio song = authoring::AudioFor(music->audio, end_s);
