@@ -116,12 +116,10 @@ class RemoteDance {
   std::optional<Message> Next();
   /// Ends the dance; a concurrent Next throws Error(kCancelled). Idempotent.
   void Cancel() noexcept;
-  /// The dance in the API's own messages (client/dance_call.h, with protobuf), for programs that
-  /// pass them on. Such a program calls its Next instead of this one's.
-  DanceCall& call() { return *call_; }
 
  private:
   friend class Client;
+  friend DanceCall& CallOf(RemoteDance& dance);
   RemoteDance(std::unique_ptr<DanceCall> call, const AudioFormat& audio);
 
   std::unique_ptr<DanceCall> call_;

@@ -9,6 +9,7 @@
 #include <variant>
 
 #include "choreo/v1/choreography.grpc.pb.h"
+#include "client/choreo_client.h"
 #include "client/dance_messages.h"
 #include "client/delivery_filter.h"
 #include "client/journal.h"
@@ -109,5 +110,9 @@ class DanceCall {
   std::string lost_because_;  // the reason for the next Resumed
   bool complete_ = false;
 };
+
+/// A dance's own messages, for programs that pass them on. Such a program calls this one's Next
+/// instead of the dance's.
+DanceCall& CallOf(RemoteDance& dance);
 
 }  // namespace choreo::client

@@ -105,4 +105,6 @@ std::optional<Message> RemoteDance::Next() {
 
 void RemoteDance::Cancel() noexcept { call_->Cancel(); }
 
+DanceCall& CallOf(RemoteDance& dance) { return *dance.call_; }
+
 }  // namespace choreo::client

@@ -84,7 +84,7 @@ void PageSession::ReceiveLive(uint32_t call, const v1::StreamDanceRequest& reque
     default:
       throw InvalidArgument("live", "has this setting in its project");
   }
-  found->second.dance->call().Send(request);
+  CallOf(*found->second.dance).Send(request);
 }
 
 void PageSession::ListenTo(const v1::Audio& audio, Dancing* dancing) {
@@ -169,7 +169,7 @@ void PageSession::ReadDance(uint32_t call, Dancing* dancing) {
     dancing->over = true;
   };
   try {
-    while (std::optional<client::DanceCall::Answer> answer = dancing->dance->call().Next()) {
+    while (std::optional<client::DanceCall::Answer> answer = CallOf(*dancing->dance).Next()) {
       Response response;
       if (const auto* resumed = std::get_if<client::Resumed>(&*answer)) {
         response.mutable_resumed()->set_reason(resumed->reason);

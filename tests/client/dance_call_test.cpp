@@ -70,8 +70,8 @@ TEST(DanceCallTest, PassesOnAnswersAsTheyCome) {
   const ScriptedServer server([&](auto& stream) { return Answer(stream, sent); });
   const auto dance = Client({.addresses = {server.address()}}).StartDance({});
   for (const v1::StreamDanceResponse& response : sent)
-    EXPECT_EQ(Text(dance->call().Next().value()), response.SerializeAsString());
-  EXPECT_FALSE(dance->call().Next());
+    EXPECT_EQ(Text(CallOf(*dance).Next().value()), response.SerializeAsString());
+  EXPECT_FALSE(CallOf(*dance).Next());
 }
 
 TEST(DanceCallTest, RepeatsRequestsButNoAnswers) {
@@ -93,9 +93,9 @@ TEST(DanceCallTest, RepeatsRequestsButNoAnswers) {
   sent[1].mutable_audio()->set_first_sample(99);
   sent[2].mutable_audio()->set_data(std::string(8, 'x'));
   sent[3].mutable_keyframes_complete();
-  for (const v1::StreamDanceRequest& request : sent) dance->call().Send(request);
+  for (const v1::StreamDanceRequest& request : sent) CallOf(*dance).Send(request);
   std::vector<std::string> answers;
-  while (const auto answer = dance->call().Next()) answers.push_back(Text(*answer));
+  while (const auto answer = CallOf(*dance).Next()) answers.push_back(Text(*answer));
 
   std::vector<std::string> wanted;
   for (const v1::StreamDanceResponse& response :
@@ -123,7 +123,7 @@ TEST(DanceCallTest, RefusesAnswersThatBreakTheProtocol) {
     const ScriptedServer server([&](auto& stream) { return Answer(stream, sent); });
     const auto dance = Client({.addresses = {server.address()}}).StartDance({});
     ExpectError(ErrorCode::kInternal, "the server", [&] {
-      while (dance->call().Next()) continue;
+      while (CallOf(*dance).Next()) continue;
     });
   }
 }
