@@ -90,16 +90,13 @@ struct KnownMusic {
   /// transition.
   std::vector<float> music_energies = {};
 
-  static KnownMusic Of(const auto& request) {
-    return {request.music_beats, request.music_downbeats, request.music_id, request.music_passages,
-            request.music_energies};
-  }
-  void SetIn(auto* request) const {
-    request->music_beats = music_beats;
-    request->music_downbeats = music_downbeats;
-    request->music_id = music_id;
-    request->music_passages = music_passages;
-    request->music_energies = music_energies;
+  /// Calls visit(what the API calls the fact, the member of each argument...) once per fact.
+  static void VisitFacts(const auto& visit, auto&&... each) {
+    visit("music_beats", each.music_beats...);
+    visit("music_downbeats", each.music_downbeats...);
+    visit("music_id", each.music_id...);
+    visit("music_passages", each.music_passages...);
+    visit("music_energies", each.music_energies...);
   }
 };
 

@@ -1,9 +1,12 @@
 #include "proto/wire/control_messages.h"
 
+#include <google/protobuf/reflection.h>
+
 #include "model/core/error.h"
 #include "model/core/text/field.h"
 #include "model/motion/controls/controls.h"
 #include "model/motion/controls/velocity_factors.h"
+#include "proto/wire/convert.h"
 
 namespace choreo::wire {
 namespace {
@@ -11,14 +14,22 @@ namespace {
 using google::protobuf::FieldDescriptor;
 using google::protobuf::Message;
 
-/// Calls `read(message, field)` with a repeated field's numbers, one by one.
-template <typename Read>
-auto All(const Message& message, const char* name, const Read& read) {
-  const FieldDescriptor* field = FieldOf(message, name);
-  std::vector<decltype(read(field, 0))> values;
-  for (int i = 0; i < message.GetReflection()->FieldSize(message, field); ++i)
-    values.push_back(read(field, i));
-  return values;
+/// Adds to a repeated field of `Sent`.
+template <typename Sent, typename Value>
+void AddAll(const std::vector<Value>& values, const FieldDescriptor* field, Message* out) {
+  const auto sent = out->GetReflection()->GetMutableRepeatedFieldRef<Sent>(out, field);
+  for (const Value& value : values) sent.Add(static_cast<Sent>(value));
+}
+
+/// Reads a repeated field of `Sent`.
+template <typename Sent, typename Value>
+void GetAll(const Message& message, const FieldDescriptor* field, std::vector<Value>* values) {
+  const auto sent = message.GetReflection()->GetRepeatedFieldRef<Sent>(message, field);
+  values->assign(sent.begin(), sent.end());
+}
+
+bool IsOfFloats(const FieldDescriptor* field) {
+  return field->cpp_type() == FieldDescriptor::CPPTYPE_FLOAT;
 }
 
 }  // namespace
@@ -31,13 +42,16 @@ const FieldDescriptor* FieldOf(const Message& message, std::string_view name) {
 }
 
 void FieldWriter::operator()(const char* name, const std::vector<int64_t>& frames) const {
-  for (const int64_t frame : frames)
-    out_->GetReflection()->AddInt64(out_, FieldOf(*out_, name), frame);
+  AddAll<int64_t>(frames, FieldOf(*out_, name), out_);
 }
 
 void FieldWriter::operator()(const char* name, const std::vector<double>& values) const {
-  for (const double value : values)
-    out_->GetReflection()->AddFloat(out_, FieldOf(*out_, name), static_cast<float>(value));
+  const FieldDescriptor* field = FieldOf(*out_, name);
+  IsOfFloats(field) ? AddAll<float>(values, field, out_) : AddAll<double>(values, field, out_);
+}
+
+void FieldWriter::operator()(const char* name, const std::vector<float>& values) const {
+  AddAll<float>(values, FieldOf(*out_, name), out_);
 }
 
 void FieldWriter::operator()(const char* name, const std::vector<Eigen::Vector2d>& points) const {
@@ -55,6 +69,11 @@ void FieldWriter::operator()(const char* name, const std::vector<std::string>& p
   }
 }
 
+void FieldWriter::operator()(const char* name, const std::vector<Passage>& passages) const {
+  for (const Passage& passage : passages)
+    out_->GetReflection()->AddMessage(out_, FieldOf(*out_, name))->CopyFrom(ToProto(passage));
+}
+
 void FieldWriter::operator()(const char* name, const std::string& text) const {
   out_->GetReflection()->SetString(out_, FieldOf(*out_, name), text);
 }
@@ -63,16 +82,22 @@ void FieldWriter::operator()(const char* name, const std::optional<double>& numb
   if (number) out_->GetReflection()->SetDouble(out_, FieldOf(*out_, name), *number);
 }
 
+void FieldWriter::operator()(const char* name, uint64_t number) const {
+  out_->GetReflection()->SetUInt64(out_, FieldOf(*out_, name), number);
+}
+
 void FieldReader::operator()(const char* name, std::vector<int64_t>& frames) const {
-  frames = All(message_, name, [this](const FieldDescriptor* field, int i) {
-    return message_.GetReflection()->GetRepeatedInt64(message_, field, i);
-  });
+  GetAll<int64_t>(message_, FieldOf(message_, name), &frames);
 }
 
 void FieldReader::operator()(const char* name, std::vector<double>& values) const {
-  values = All(message_, name, [this](const FieldDescriptor* field, int i) -> double {
-    return message_.GetReflection()->GetRepeatedFloat(message_, field, i);
-  });
+  const FieldDescriptor* field = FieldOf(message_, name);
+  IsOfFloats(field) ? GetAll<float>(message_, field, &values)
+                    : GetAll<double>(message_, field, &values);
+}
+
+void FieldReader::operator()(const char* name, std::vector<float>& values) const {
+  GetAll<float>(message_, FieldOf(message_, name), &values);
 }
 
 void FieldReader::operator()(const char* name, std::vector<Eigen::Vector2d>& points) const {
@@ -86,14 +111,21 @@ void FieldReader::operator()(const char* name, std::vector<Eigen::Vector2d>& poi
 }
 
 void FieldReader::operator()(const char* name, std::vector<std::string>& parts) const {
-  parts = All(message_, name, [this, name](const FieldDescriptor* field, int i) {
-    const int number = message_.GetReflection()->GetRepeatedEnumValue(message_, field, i);
+  std::vector<int> numbers;
+  GetAll<int>(message_, FieldOf(message_, name), &numbers);
+  for (const int number : numbers) {
     const int part = number - v1::BODY_PART_TRUNK;
     if (part < 0 || part >= kBodyParts)
-      throw InvalidArgument(At(field_ + '.' + name, i),
+      throw InvalidArgument(At(field_ + '.' + name, std::ssize(parts)),
                             std::to_string(number) + " is not a BodyPart");
-    return std::string(kBodyPartNames[static_cast<size_t>(part)]);
-  });
+    parts.emplace_back(kBodyPartNames[static_cast<size_t>(part)]);
+  }
+}
+
+void FieldReader::operator()(const char* name, std::vector<Passage>& passages) const {
+  const auto sent = message_.GetReflection()->GetRepeatedFieldRef<v1::MusicPassage>(
+      message_, FieldOf(message_, name));
+  for (const v1::MusicPassage& passage : sent) passages.push_back(FromProto(passage));
 }
 
 void FieldReader::operator()(const char* name, std::string& text) const {
@@ -104,6 +136,10 @@ void FieldReader::operator()(const char* name, std::optional<double>& number) co
   const FieldDescriptor* field = message_.GetDescriptor()->FindFieldByName(name);
   if (field && message_.GetReflection()->HasField(message_, field))
     number = message_.GetReflection()->GetDouble(message_, field);
+}
+
+void FieldReader::operator()(const char* name, uint64_t& number) const {
+  number = message_.GetReflection()->GetUInt64(message_, FieldOf(message_, name));
 }
 
 v1::Controls ToProto(const ControlRequest& controls) {

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "choreo/v1/choreography.pb.h"
+#include "model/core/passage.h"
 #include "model/motion/controls/control_request.h"
 #include "model/motion/controls/controls.h"
 
@@ -25,8 +26,8 @@ v1::Controls ToProto(const ControlRequest& controls);
 /// unknown body parts. The engine validates the values.
 ControlRequest FromProto(const v1::Controls& controls, const std::string& field);
 
-/// A visitor for VisitFields or VisitSettings: writes each value into the message's field of that
-/// name. `field`: the control's path in errors.
+/// A visitor for VisitFields, VisitSettings or VisitFacts: writes each value into the message's
+/// field of that name. `field`: the control's path in errors.
 class FieldWriter {
  public:
   FieldWriter(google::protobuf::Message* out, std::string field)
@@ -34,10 +35,13 @@ class FieldWriter {
 
   void operator()(const char* name, const std::vector<int64_t>& frames) const;
   void operator()(const char* name, const std::vector<double>& values) const;
+  void operator()(const char* name, const std::vector<float>& values) const;
   void operator()(const char* name, const std::vector<Eigen::Vector2d>& points) const;
   void operator()(const char* name, const std::vector<std::string>& parts) const;
+  void operator()(const char* name, const std::vector<Passage>& passages) const;
   void operator()(const char* name, const std::string& text) const;
   void operator()(const char* name, const std::optional<double>& number) const;
+  void operator()(const char* name, uint64_t number) const;
 
  private:
   google::protobuf::Message* out_;
@@ -53,11 +57,14 @@ class FieldReader {
 
   void operator()(const char* name, std::vector<int64_t>& frames) const;
   void operator()(const char* name, std::vector<double>& values) const;
+  void operator()(const char* name, std::vector<float>& values) const;
   void operator()(const char* name, std::vector<Eigen::Vector2d>& points) const;
   void operator()(const char* name, std::vector<std::string>& parts) const;
+  void operator()(const char* name, std::vector<Passage>& passages) const;
   void operator()(const char* name, std::string& text) const;
   /// None if the field was not sent, or the message has no such field.
   void operator()(const char* name, std::optional<double>& number) const;
+  void operator()(const char* name, uint64_t& number) const;
 
  private:
   const google::protobuf::Message& message_;

@@ -40,7 +40,7 @@ v1::Event ToProto(const DanceEvent& event, double fps);
 /// Reads a client's message, without checks. Settings that the message lacks are not stated.
 DanceManner MannerOf(const google::protobuf::Message& message);
 KnownMusic MusicOf(const v1::DanceConfig& config);
-std::vector<Passage> ToPassages(const google::protobuf::RepeatedPtrField<v1::MusicPassage>& sent);
+Passage FromProto(const v1::MusicPassage& passage);
 
 Skeleton FromProto(const v1::Skeleton& skeleton);
 /// None if unspecified or unknown to this version.

@@ -10,8 +10,9 @@ namespace {
 
 // What the model's errors call a value, and its path in StreamDanceRequest or
 // GenerateTransitionRequest. The first row that begins a field applies, so longer rows come first.
-// Names that are the path already ("target_id", "controls") need no row, nor do settings.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 28> kPaths = {{
+// Names that are the path already ("target_id", "controls") need no row, nor do the settings and
+// what is known of the music, which are in the config.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 24> kPaths = {{
     // DanceConfig and GroupRequest
     {"audio", "config.audio_format"},
     {"before", "config.history"},
@@ -21,10 +22,6 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 28> kPaths =
     {"generate_until", "config.generate_until"},
     {"history", "config.history.poses"},
     {"hit", "target_hit"},
-    {"music_beats", "config.music_beats"},
-    {"music_downbeats", "config.music_downbeats"},
-    {"music_energies", "config.music_energies"},
-    {"music_passages", "config.music_passages"},
     {"output_fps", "config.frame_rate"},
     {"samples", "audio.data"},
     {"target.mask", "target_mask"},
@@ -56,17 +53,18 @@ constexpr std::array<std::pair<Remedy, std::string_view>, 3> kRemedies = {{
 
 std::string PathOf(std::string_view field) {
   std::string path(field);
-  DanceManner::VisitSettings(
-      [&](const SettingRow& row, const auto&) {
-        if (field == row.name) path = "config." + path;
-      },
-      DanceManner());
-  for (const auto& [own, sent] : kPaths) {
-    if (!field.starts_with(own)) continue;
-    const std::string_view rest = field.substr(own.size());
-    if (rest.empty() || rest.front() == '.' || rest.front() == '[')
-      return std::string(sent).append(rest);
-  }
+  const auto is_in = [field](std::string_view own) {
+    return field.starts_with(own) &&
+           (field.size() == own.size() || field[own.size()] == '.' || field[own.size()] == '[');
+  };
+  const auto add_config = [&](std::string_view own) {
+    if (is_in(own)) path = "config." + path;
+  };
+  DanceManner::VisitSettings([&](const SettingRow& row, const auto&) { add_config(row.name); },
+                             DanceManner());
+  KnownMusic::VisitFacts([&](const char* name, const auto&) { add_config(name); }, KnownMusic());
+  for (const auto& [own, sent] : kPaths)
+    if (is_in(own)) return std::string(sent).append(field.substr(own.size()));
   return path;
 }
 

@@ -41,17 +41,13 @@ DanceManner MannerOf(const google::protobuf::Message& message) {
 }
 
 KnownMusic MusicOf(const v1::DanceConfig& config) {
-  return {.music_beats = {config.music_beats().begin(), config.music_beats().end()},
-          .music_downbeats = {config.music_downbeats().begin(), config.music_downbeats().end()},
-          .music_id = config.music_id(),
-          .music_passages = ToPassages(config.music_passages()),
-          .music_energies = {config.music_energies().begin(), config.music_energies().end()}};
+  KnownMusic music;
+  KnownMusic::VisitFacts(FieldReader(config, ""), music);
+  return music;
 }
 
-std::vector<Passage> ToPassages(const google::protobuf::RepeatedPtrField<v1::MusicPassage>& sent) {
-  std::vector<Passage> passages;
-  for (const v1::MusicPassage& one : sent) passages.push_back({one.from(), one.to(), one.like()});
-  return passages;
+Passage FromProto(const v1::MusicPassage& passage) {
+  return {passage.from(), passage.to(), passage.like()};
 }
 
 Skeleton FromProto(const v1::Skeleton& skeleton) {

@@ -82,11 +82,7 @@ void Write(const DanceManner& manner, google::protobuf::Message* out) {
 }
 
 void Write(const KnownMusic& music, v1::DanceConfig* out) {
-  out->mutable_music_beats()->Add(music.music_beats.begin(), music.music_beats.end());
-  out->mutable_music_downbeats()->Add(music.music_downbeats.begin(), music.music_downbeats.end());
-  out->set_music_id(music.music_id);
-  for (const Passage& passage : music.music_passages) *out->add_music_passages() = ToProto(passage);
-  out->mutable_music_energies()->Add(music.music_energies.begin(), music.music_energies.end());
+  KnownMusic::VisitFacts(FieldWriter(out, ""), music);
 }
 
 v1::ModelInfo ToProto(const ModelDescription& model) {

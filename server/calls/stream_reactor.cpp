@@ -146,7 +146,9 @@ class DanceSession final : public CallSession<DanceResponse, DanceStream>,
         return HandleRepeatable(request, "", [&] { GiveBeats(*stream, request.music_beats()); });
       case DanceRequest::kMusicPassages:
         return HandleRepeatable(request, "", [&] {
-          const auto passages = wire::ToPassages(request.music_passages().passages());
+          std::vector<Passage> passages;
+          for (const v1::MusicPassage& passage : request.music_passages().passages())
+            passages.push_back(wire::FromProto(passage));
           wire::WithPaths([&] { stream->GivePassages(passages); });
         });
       case DanceRequest::kGenerateUntil:
