@@ -7,6 +7,21 @@
 
 namespace choreo {
 
+/// How wrists turn (TurnWrists), as measured on the dancers of the training split
+/// (scripts/wrists.py): the spread of their angles, radians, about three axes.
+struct WristOptions {
+  double twist = 0.12;      ///< about the forearm
+  double deviation = 0.42;  ///< towards the thumb
+  double flexion = 0.50;    ///< towards the palm
+  double memory = 1.6;      ///< radians by which shoulder and elbow turn in a wrist's time constant
+
+  /// Throws Error(kInvalidArgument, field) for an option that is not above 0.
+  void Check(const std::string& field) const;
+};
+
+void to_json(nlohmann::json& json, const WristOptions& options);
+void from_json(const nlohmann::json& json, WristOptions& options);
+
 /// Settings of the stages in model/plan (plan_stages.h). Stored in the model's checkpoint.
 struct PlanOptions {
   /// How much time may speed up or slow down to align the dancer's beats with the music's.
@@ -15,6 +30,7 @@ struct PlanOptions {
   double fastest = 1.0 / 3;      ///< seconds between beats: faster beats have less effect
   double hinge_softness = 0.03;  ///< radians of bend over which a hinge stops softly
   FootworkOptions footwork = {};
+  WristOptions wrists = {};
 
   /// Throws Error(kInvalidArgument, field) for options with which time could run backwards or a
   /// hinge would never stop.

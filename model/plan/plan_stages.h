@@ -7,6 +7,7 @@
 #include "model/motion/motion.h"
 #include "model/motion/skeleton.h"
 #include "model/plan/plan_options.h"
+#include "model/plan/transition_noise.h"
 
 /// The stages of a plan after the network, and of its arms after arrival (plan/process_plan.h), for
 /// what the network does not know or a rule does better. Pure functions, thread-safe.
@@ -25,6 +26,7 @@ struct PlanContext {
        has_heights = false;  ///< controls give the root's position, and its height
   double fps;                ///< of the model
   PlanOptions options = {};  ///< from the model's checkpoint
+  TransitionNoise noise = {};
 };
 
 /// Limits knees and elbows to bends between straight and folded, with a soft stop at both ends, and
@@ -71,8 +73,14 @@ double HitTime(double u, double hit);
 /// plan after arrival, as arrival moves arms, too.
 void KeepArmsOutside(const PlanContext& context, std::vector<Pose>* plan);
 
+/// Turns the wrists, which the network has never seen turn, as recorded dancers do: at random, but
+/// as fast as shoulder and elbow turn, so that hands move with their arms and rest with them. A
+/// Gaussian process (WristOptions) that continues from the history and, by the noise's temperature,
+/// differs from dance to dance. Arrival leads from it to a key's wrists.
+void TurnWrists(const PlanContext& context, std::vector<Pose>* plan);
+
 /// The stages in order, for models with ModelInfo::plan_stages.
 inline constexpr void (*kPlanStages[])(const PlanContext&, std::vector<Pose>*) = {
-    TimeToBeats, LimitHinges, ReturnToFloor};
+    TimeToBeats, LimitHinges, ReturnToFloor, TurnWrists};
 
 }  // namespace choreo

@@ -95,7 +95,8 @@ Slices<ProcessedPlan> ProcessPlan(const ModelInfo& model, const ValidSpec& valid
                             .has_path = path.IsGiven(),
                             .has_heights = path.IsRequested(kPathHeight),
                             .fps = model.fps,
-                            .options = model.plan_options};
+                            .options = model.plan_options,
+                            .noise = spec};
   if (model.plan_stages && !held) {
     for (const auto stage : kPlanStages) stage(context, &poses);
   }
