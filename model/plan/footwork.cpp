@@ -11,6 +11,7 @@
 #include "model/motion/kinematics/body_mass.h"
 #include "model/motion/kinematics/kinematics.h"
 #include "model/motion/kinematics/limb.h"
+#include "model/motion/rotation.h"
 #include "model/plan/contact_plan.h"
 #include "model/plan/foot_tracks.h"
 #include "model/plan/pelvis_offset.h"
@@ -20,8 +21,9 @@ namespace choreo {
 namespace {
 
 constexpr double kHalfToes =
-    0.75;                   // share of a foot's length: the height of its ankle on half toes
-constexpr int kPasses = 2;  // twice, because moving the legs moves the centre of mass
+    0.75;                         // share of a foot's length: the height of its ankle on half toes
+constexpr double kLeanSpeed = 6;  // rad/s
+constexpr int kPasses = 2;        // twice, because moving the legs moves the centre of mass
 
 class PlanStander {
  public:
@@ -137,9 +139,25 @@ class PlanStander {
     return Settled(std::min(since, until));
   }
 
+  // The rotation vector from one direction to another.
+  static Eigen::Vector3d TurnTo(const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
+    const Eigen::AngleAxisd turn(Eigen::Quaterniond::FromTwoVectors(from, to));
+    return turn.angle() * turn.axis();
+  }
+  // `foot`, turned up or down so that it rises by `rise`, at most its length. An upright foot
+  // stays.
+  static Eigen::Vector3d WithHeight(const Eigen::Vector3d& foot, double rise) {
+    const double along = std::hypot(foot.x(), foot.z());
+    if (rise == foot.y() || along < 1e-6) return foot;
+    const double flat = std::sqrt(std::max(0.0, foot.squaredNorm() - rise * rise)) / along;
+    return {flat * foot.x(), rise, flat * foot.z()};
+  }
+
   // Limits ankles: none is lower than in a flat foot, and a supporting foot's is at most as high as
   // on half toes. The foot turns about its toes for that. What the previous pose and a key do
-  // beyond these limits fades out, or in, within kSettleSeconds; a held pose keeps it.
+  // beyond these limits fades out, or in, within kSettleSeconds; a held pose keeps it. A foot that
+  // tips over its toes is to be turned one way before and the other way after: kLeanSpeed lets it
+  // tip, without a snap.
   void LayDown(size_t side) {
     const Leg& leg = feet_.legs[side];
     const auto sunk = [&](const Eigen::Matrix3Xd& at) {
@@ -156,6 +174,7 @@ class PlanStander {
       if (context_.held) return std::max(first, last);
       return std::max((1 - Settled(frame + 1)) * first, (1 - Settled(frames_ - 1 - frame)) * last);
     };
+    Eigen::Vector3d lean = Eigen::Vector3d::Zero();  // how the foot is turned to be less steep
     for (int frame = 0; frame < frames_; ++frame) {
       if (IsKey(frame)) return;
       const auto i = static_cast<size_t>(frame);
@@ -163,18 +182,18 @@ class PlanStander {
       JointPlacement& at = planned_[i];
       const Eigen::Vector3d ankle = at.positions.col(leg.ankle);
       const Eigen::Vector3d foot = at.positions.col(leg.toes) - ankle;
-      const double length = foot.norm(), along = std::hypot(foot.x(), foot.z());
-      if (along < 1e-6) continue;
+      const double length = foot.norm();
       const double half_toes = length * (1 - (1 - kHalfToes) * Bears(side, frame));
       const double steepest = std::max(half_toes, own(steep, frame));
+      const Eigen::Vector3d change =
+          TurnTo(foot, WithHeight(foot, std::max(foot.y(), -steepest))) - lean;
+      lean += change * std::min(1.0, kLeanSpeed / context_.fps / std::max(1e-9, change.norm()));
+      const Eigen::Vector3d leant = ExpMap(lean) * foot;
       const double highest = std::max(toes_[side][i].y() - least, -length);
-      const double rise = std::clamp(foot.y(), std::min(-steepest, highest), highest);
-      if (rise == foot.y()) continue;
-      const double flat = std::sqrt(std::max(0.0, length * length - rise * rise)) / along;
-      const Eigen::Vector3d laid(flat * foot.x(), rise, flat * foot.z());
+      const Eigen::Vector3d laid = WithHeight(leant, std::min(leant.y(), highest));
+      if (laid == foot) continue;
       at.rotations[static_cast<size_t>(leg.ankle)] =
-          Eigen::Quaterniond::FromTwoVectors(foot, laid).toRotationMatrix() *
-          at.rotations[static_cast<size_t>(leg.ankle)];
+          ExpMap(TurnTo(foot, laid)) * at.rotations[static_cast<size_t>(leg.ankle)];
       at.positions.col(leg.toes) = ankle + laid;
     }
   }

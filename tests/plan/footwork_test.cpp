@@ -119,6 +119,45 @@ TEST(StandOnFeet, ASteepFootLiesDownSlowly) {
   }
 }
 
+// Half toes were in front of an upright foot, and behind it a frame later: the ankle turned by 80
+// degrees at once.
+TEST(StandOnFeet, AFootThatTipsOverItsToesDoesNotSnap) {
+  // The feet point forwards, this far down.
+  const auto tipped = [](double down) {
+    Pose pose = At({0, 0, 0});
+    const JointPlacement at = ForwardKinematics(Body(), pose);
+    for (const Leg& leg : Leg::Of(Body())) {
+      const Eigen::Vector3d foot = at.positions.col(leg.toes) - at.positions.col(leg.ankle);
+      const Eigen::Matrix3d turned =
+          Eigen::Quaterniond::FromTwoVectors(foot,
+                                             Eigen::Vector3d(0, -std::sin(down), std::cos(down))) *
+          at.rotations[static_cast<size_t>(leg.ankle)];
+      pose.rotations.col(leg.ankle) =
+          LogMap(at.rotations[static_cast<size_t>(leg.knee)].transpose() * turned);
+    }
+    pose.root_position.y() = *StandingHeight(Body(), pose);
+    const int toes = Body().feet[1];  // in their place
+    pose.root_position.z() -= JointPositions(Body(), pose)(2, toes);
+    return pose;
+  };
+  const std::vector<Pose> history(10, tipped(0.8));
+  std::vector<Pose> plan;
+  for (int i = 1; i <= kFrames; ++i) plan.push_back(tipped(0.8 + 1.6 * std::min(1.0, i / 20.0)));
+  FootworkContext context = Context();
+  context.history = history;
+  StandOnFeet(context, &plan);
+  Pose before = history.back();
+  double most = 0;
+  for (const Pose& pose : plan) {
+    for (const Leg& leg : Leg::Of(Body()))
+      most = std::max(
+          most, RotationDifference(before.rotations.col(leg.ankle), pose.rotations.col(leg.ankle))
+                    .norm());
+    before = pose;
+  }
+  EXPECT_LT(most * kDegrees, 25);
+}
+
 // With its feet at its chest, a body lands when it has fallen, not when the feet have.
 TEST(StandOnFeet, ATuckedBodyLandsInTimeForItsOwnFall) {
   const auto falling = [](double share) {  // of its way to where it stands
