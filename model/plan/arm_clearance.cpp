@@ -24,6 +24,8 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 constexpr int kDetourRounds = 3;  // a turned arm brings other points of it next to the trunk
+constexpr double kLessDetour = 0.6;
+constexpr double kFastestShoulder = 20;  // rad/s: recorded dancers are slower in 99.5 % of frames
 
 struct Arm {
   int shoulder, elbow, wrist, hand;
@@ -36,8 +38,10 @@ struct Detour {
   std::vector<double> turns;  // per frame, about Lever
   int left_cm = 0;            // how far the arm is still inside
   double shaking = 0;         // what it adds to the accelerations of the forearm, squared
+  bool whirls = false;        // faster than kFastestShoulder, and than the plan
   bool operator<(const Detour& other) const {
-    return std::tie(left_cm, shaking) < std::tie(other.left_cm, other.shaking);
+    return std::tie(whirls, left_cm, shaking) <
+           std::tie(other.whirls, other.left_cm, other.shaking);
   }
 };
 
@@ -61,8 +65,11 @@ class ArmClearer {
     for (int from = 0, to = 0; from < frames_; from = to + 1) {
       for (to = from; to < frames_ && Way(arm, At(to)).norm() < least[Index(to)];) ++to;
       if (to == from) continue;
-      Detour best = Around(arm, least, from, to, Vector3d::UnitZ());
-      for (const Vector3d& towards : {Vector3d(-Vector3d::UnitZ()), arm.outside})
+      // Not to turn at all is the best of those that do not whirl, if all others do.
+      Detour best{
+          .towards = arm.outside, .turns = std::vector<double>(plan_.size()), .left_cm = 100};
+      for (const Vector3d& towards :
+           {Vector3d(Vector3d::UnitZ()), Vector3d(-Vector3d::UnitZ()), arm.outside})
         best = std::min(best, Around(arm, least, from, to, towards));
       Apply(arm, best);
     }
@@ -157,29 +164,42 @@ class ArmClearer {
     return turn + (std::sqrt(wg * wg + gg * (least * least - way.squaredNorm())) - wg) / gg;
   }
 
-  // The detour of frames [from, to).
+  // How far a detour of frames [from, to) leaves the arm inside, metres. Adds the turns from which
+  // frames would be outside to `needed`.
+  double Inside(const Arm& arm, const std::vector<double>& least, int from, int to,
+                const Detour& detour, std::vector<double>* needed) const {
+    double inside = 0;
+    for (int frame = 0; frame < frames_ - (context_.keyed ? 1 : 0); ++frame) {
+      const double turn = detour.turns[Index(frame)];
+      if (turn == 0 && (frame < from || frame >= to)) continue;
+      const Vector3d lever = Lever(arm, At(frame), detour.towards);
+      const Vector3d way = Way(arm, At(frame), ExpMap(turn * lever));
+      const double more = least[Index(frame)] - way.norm();
+      if (more <= 0) continue;
+      inside = std::max(inside, more);
+      (*needed)[Index(frame)] =
+          std::min(M_PI / 2, TurnFor(arm, At(frame), lever, turn, way, least[Index(frame)]));
+    }
+    return inside;
+  }
+
+  // The detour of frames [from, to). One that would whirl goes only a part of the way.
   Detour Around(const Arm& arm, const std::vector<double>& least, int from, int to,
                 const Vector3d& towards) const {
     Detour detour{.towards = towards, .turns = std::vector<double>(plan_.size())};
     std::vector<double> needed(plan_.size());
-    const int keys = context_.keyed ? 1 : 0;
-    for (int round = 0;; ++round) {
-      double inside = 0;
-      for (int frame = 0; frame < frames_ - keys; ++frame) {
-        const double turn = detour.turns[Index(frame)];
-        if (turn == 0 && (frame < from || frame >= to)) continue;
-        const Vector3d lever = Lever(arm, At(frame), towards);
-        const Vector3d way = Way(arm, At(frame), ExpMap(turn * lever));
-        const double more = least[Index(frame)] - way.norm();
-        if (more <= 0) continue;
-        inside = std::max(inside, more);
-        needed[Index(frame)] =
-            std::min(M_PI / 2, TurnFor(arm, At(frame), lever, turn, way, least[Index(frame)]));
-      }
-      detour.left_cm = static_cast<int>(std::lround(100 * inside));
-      if (inside == 0 || round == kDetourRounds) break;
+    double inside = Inside(arm, least, from, to, detour, &needed);
+    for (int round = 0; inside > 0 && round < kDetourRounds; ++round) {
       detour.turns = Spread(arm, needed);
+      inside = Inside(arm, least, from, to, detour, &needed);
     }
+    detour.whirls = Whirls(arm, detour);
+    for (int round = 0; detour.whirls && round < kDetourRounds; ++round) {
+      for (double& turn : detour.turns) turn *= kLessDetour;
+      inside = Inside(arm, least, from, to, detour, &needed);
+      detour.whirls = Whirls(arm, detour);
+    }
+    detour.left_cm = static_cast<int>(std::lround(100 * inside));
     const auto moved = [&](int frame) -> Vector3d {
       const double turn = frame < 0 || frame >= frames_ ? 0 : detour.turns[Index(frame)];
       if (turn == 0) return Vector3d::Zero();
@@ -191,17 +211,37 @@ class ArmClearer {
     return detour;
   }
 
+  // The shoulder's rotation in its parent's frame, turned.
+  Matrix3d Shoulder(const Arm& arm, const JointPlacement& at, const Detour& detour,
+                    double turn) const {
+    return at.rotations[Index(ParentOf(arm.shoulder))].transpose() *
+           ExpMap(turn * Lever(arm, at, detour.towards)) * at.rotations[Index(arm.shoulder)];
+  }
+
+  bool Whirls(const Arm& arm, const Detour& detour) const {
+    const auto step = [&](int frame, double before, double now) {
+      const JointPlacement& last = frame == 0 ? before_ : At(frame - 1);
+      return Eigen::AngleAxisd(Shoulder(arm, last, detour, before).transpose() *
+                               Shoulder(arm, At(frame), detour, now))
+          .angle();
+    };
+    for (int frame = 0; frame < frames_; ++frame) {
+      const double before = frame == 0 ? 0 : detour.turns[Index(frame - 1)];
+      const double now = detour.turns[Index(frame)];
+      if (before == 0 && now == 0) continue;
+      const double most = std::max(kFastestShoulder / context_.fps, step(frame, 0, 0));
+      if (step(frame, before, now) > most) return true;
+    }
+    return false;
+  }
+
   void Apply(const Arm& arm, const Detour& detour) {
     for (int frame = 0; frame < frames_; ++frame) {
       const double turn = detour.turns[Index(frame)];
       if (turn == 0) continue;
       JointPlacement& at = placed_[Index(frame)];
       auto rotation = plan_[Index(frame)].rotations.col(arm.shoulder);
-      const Matrix3d turned =
-          ExpMap(turn * Lever(arm, at, detour.towards)) * at.rotations[Index(arm.shoulder)];
-      rotation =
-          NearestBranch(LogMap(at.rotations[Index(ParentOf(arm.shoulder))].transpose() * turned),
-                        Vector3d(rotation));
+      rotation = NearestBranch(LogMap(Shoulder(arm, at, detour, turn)), Vector3d(rotation));
       ForwardKinematics(skeleton_, plan_[Index(frame)], at);
     }
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/core/numbers/random.h"
 #include "model/motion/floor/floor_clearance.h"
 #include "model/motion/kinematics/kinematics.h"
 #include "model/motion/kinematics/mirror.h"
@@ -80,6 +81,32 @@ TEST(KeepArmsOutside, ItMovesAsideSmoothly) {
   Keep(false, &plan);
   ASSERT_GT(Nearest(plan), 0.8 * kTrunkDepth);
   EXPECT_LT(most(plan), before + 2);
+}
+
+// A quick arm has no time to go round: it stays a little inside, but its shoulder does not whirl.
+TEST(KeepArmsOutside, AQuickArmDoesNotWhirl) {
+  const auto fastest = [](const std::vector<Pose>& plan) {
+    double most = 0;
+    for (size_t i = 1; i < plan.size(); ++i)
+      most = std::max(most, RotationDifference(plan[i - 1].rotations.col(Body().left_shoulder),
+                                               plan[i].rotations.col(Body().left_shoulder))
+                                .norm());
+    return most * kFps;
+  };
+  Random random(1);
+  for (int dance = 0; dance < 200; ++dance) {
+    std::vector<Pose> plan(kFrames, RestPose(Body()));
+    for (const int joint : {Body().left_shoulder, Body().left_elbow}) {
+      for (int axis = 0; axis < 3; ++axis) {
+        const double phase = random.Uniform(0, 2 * M_PI), pace = random.Uniform(0.1, 0.4);
+        for (int i = 0; i < kFrames; ++i)
+          plan[static_cast<size_t>(i)].rotations(axis, joint) = 1.2 * std::sin(phase + pace * i);
+      }
+    }
+    const double before = fastest(plan);
+    Keep(true, &plan);
+    EXPECT_LT(fastest(plan), std::max(before, 20.0) + 1e-6) << dance;
+  }
 }
 
 TEST(KeepArmsOutside, ArmsThatAreOutsideStay) {
