@@ -7,13 +7,13 @@
 
 namespace choreo {
 
-/// How wrists turn (TurnWrists), as measured on the dancers of the training split
-/// (scripts/wrists.py): the spread of their angles, radians, about three axes.
+/// How wrists turn (TurnWrists), measured by scripts/wrists.py on the training split of dancedb:
+/// the spread about three axes, radians, without its trembling share.
 struct WristOptions {
-  double twist = 0.12;      ///< about the forearm
-  double deviation = 0.42;  ///< towards the thumb
-  double flexion = 0.50;    ///< towards the palm
-  double memory = 1.6;      ///< radians by which shoulder and elbow turn in a wrist's time constant
+  double twist = 0.09;      ///< about the forearm
+  double deviation = 0.35;  ///< towards the thumb
+  double flexion = 0.41;    ///< towards the palm
+  double memory = 1.45;     ///< radians by which shoulder and elbow turn in a wrist's time constant
 
   /// Throws Error(kInvalidArgument, field) for an option that is not above 0.
   void Check(const std::string& field) const;
