@@ -1,18 +1,14 @@
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <limits>
 #include <tuple>
-#include <utility>
 #include <vector>
 
 #include "model/core/numbers/smooth_step.h"
 #include "model/motion/floor/floor_clearance.h"
 #include "model/motion/floor/support.h"
 #include "model/motion/kinematics/kinematics.h"
-#include "model/motion/kinematics/limb.h"
-#include "model/motion/nearest_points.h"
+#include "model/motion/kinematics/trunk_line.h"
 #include "model/motion/rotation.h"
 #include "model/plan/plan_stages.h"
 #include "model/plan/toes_path.h"
@@ -27,8 +23,7 @@ constexpr int kDetourRounds = 3;  // a turned arm brings other points of it next
 constexpr double kLessDetour = 0.6;
 constexpr double kFastestShoulder = 20;  // rad/s: recorded dancers are slower in 99.5 % of frames
 
-struct Arm {
-  int shoulder, elbow, wrist, hand;
+struct ClearedArm : Arm {
   Vector3d outside;  // of the body, in the trunk's frame
 };
 
@@ -53,14 +48,12 @@ class ArmClearer {
         plan_(*plan),
         frames_(static_cast<int>(plan->size())),
         settle_(kSettleSeconds * context.fps),
+        trunk_(context.skeleton),
         before_(ForwardKinematics(skeleton_, context.history.back())) {
-    int joint = skeleton_.left_shoulder;
-    while (!IsBelow(skeleton_.right_shoulder, joint, skeleton_.parents)) joint = ParentOf(joint);
-    for (; joint >= 0; joint = ParentOf(joint)) spine_.push_back(joint);
     for (const Pose& pose : plan_) placed_.push_back(ForwardKinematics(skeleton_, pose));
   }
 
-  void Clear(const Arm& arm) {
+  void Clear(const ClearedArm& arm) {
     const std::vector<double> least = Least(arm);
     for (int from = 0, to = 0; from < frames_; from = to + 1) {
       for (to = from; to < frames_ && Way(arm, At(to)).norm() < least[Index(to)];) ++to;
@@ -80,37 +73,16 @@ class ArmClearer {
   int ParentOf(int joint) const { return skeleton_.parents[Index(joint)]; }
   const JointPlacement& At(int frame) const { return placed_[Index(frame)]; }
 
-  // The shortest way to an arm, turned about its shoulder, from the line through the trunk's
-  // joints.
   Vector3d Way(const Arm& arm, const JointPlacement& at,
                const Matrix3d& turn = Matrix3d::Identity()) const {
-    const Vector3d shoulder = at.positions.col(arm.shoulder);
-    const auto turned = [&](int joint) -> Vector3d {
-      return shoulder + turn * (at.positions.col(joint) - shoulder);
-    };
-    const Vector3d elbow = turned(arm.elbow), wrist = turned(arm.wrist);
-    // Fingers are as long as the palm.
-    const Vector3d tip = arm.hand < 0 ? wrist : Vector3d(2 * turned(arm.hand) - wrist);
-    Vector3d above =
-        (at.positions.col(skeleton_.left_shoulder) + at.positions.col(skeleton_.right_shoulder)) /
-        2;
-    Vector3d way = Vector3d::Constant(std::numeric_limits<double>::infinity());
-    for (const int joint : spine_) {
-      const Vector3d below = at.positions.col(joint);
-      for (const auto& [a, b] : {std::pair(elbow, wrist), std::pair(wrist, tip)}) {
-        const auto [on_trunk, on_arm] = NearestPoints(below, above, a, b);
-        const Vector3d one = a + on_arm * (b - a) - below - on_trunk * (above - below);
-        if (one.squaredNorm() < way.squaredNorm()) way = one;
-      }
-      above = below;
-    }
-    return way;
+    return trunk_.WayTo(arm, at.positions, turn);
   }
 
   // The vector about which the arm turns to move the middle of its forearm `towards`. It is
   // shorter, the less a turn moves it there, so that it is continuous.
   Vector3d Lever(const Arm& arm, const JointPlacement& at, const Vector3d& towards) const {
-    return Middle(arm, at).normalized().cross(at.rotations[Index(spine_.front())] * towards);
+    return Middle(arm, at).normalized().cross(at.rotations[Index(trunk_.joints().front())] *
+                                              towards);
   }
   // The middle of the forearm, from the shoulder.
   static Vector3d Middle(const Arm& arm, const JointPlacement& at) {
@@ -250,8 +222,8 @@ class ArmClearer {
   const Skeleton& skeleton_;
   std::vector<Pose>& plan_;
   const int frames_;
-  const double settle_;     // kSettleSeconds, in frames
-  std::vector<int> spine_;  // the trunk's joints, from below the shoulders down to the root
+  const double settle_;  // kSettleSeconds, in frames
+  const TrunkLine trunk_;
   const JointPlacement before_;
   std::vector<JointPlacement> placed_;  // the plan
 };
@@ -259,19 +231,11 @@ class ArmClearer {
 }  // namespace
 
 void KeepArmsOutside(const PlanContext& context, std::vector<Pose>* plan) {
-  const Skeleton& skeleton = context.skeleton;
-  const std::array shoulders = {skeleton.left_shoulder, skeleton.right_shoulder};
-  const std::array elbows = {skeleton.left_elbow, skeleton.right_elbow};
-  std::vector<Arm> arms;
-  for (size_t side = 0; side < 2; ++side) {
-    const int wrist = elbows[side] < 0 ? -1 : FirstChild(skeleton, elbows[side]);
-    if (shoulders[side] < 0 || wrist < 0) return;
-    arms.push_back({shoulders[side], elbows[side], wrist, FirstChild(skeleton, wrist),
-                    side == 0 ? Vector3d::UnitX() : Vector3d(-Vector3d::UnitX())});
-  }
-  if (plan->empty()) return;
+  const std::vector<Arm> arms = ArmsOf(context.skeleton);
+  if (arms.empty() || plan->empty()) return;
   ArmClearer clearer(context, plan);
-  for (const Arm& arm : arms) clearer.Clear(arm);
+  clearer.Clear({arms[0], Vector3d::UnitX()});
+  clearer.Clear({arms[1], -Vector3d::UnitX()});
 }
 
 }  // namespace choreo
