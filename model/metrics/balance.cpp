@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "model/core/error.h"
 #include "model/core/numbers/quantile.h"
 
 namespace choreo {
@@ -14,18 +13,13 @@ constexpr double kMinHover = 0.15;           // m, of the lowest joint
 constexpr double kCentreOutside = 0.10;      // m
 constexpr double kZeroMomentOutside = 0.15;  // m
 
-// The longest run, in frames, with all joints above `least` that is not a flight.
-int LongestHover(const JointTrack& track, const std::vector<Balance>& balance, double least) {
-  int longest = 0;
-  for (size_t from = 0; from < track.size();) {
-    size_t to = from;
-    double sum = 0;
-    for (; to < track.size() && track[to].row(1).minCoeff() > least; ++to)
-      sum += balance[to].acceleration.y();
-    const auto frames = static_cast<int>(to - from);
-    if (frames > 0 && sum / frames > -kThrown) longest = std::max(longest, frames);
-    from = to + 1;
-  }
+// The longest time, in frames, in which all joints hang above `least`.
+size_t LongestHover(const JointTrack& track, const std::vector<Balance>& balance, double least) {
+  std::vector<double> heights;
+  for (const Eigen::Matrix3Xd& joints : track) heights.push_back(joints.row(1).minCoeff());
+  size_t longest = 0;
+  for (const auto& [first, end] : FindHovers(heights, balance, least))
+    longest = std::max(longest, end - first);
   return longest;
 }
 
@@ -58,21 +52,6 @@ double DancedFloor(const Skeleton& skeleton, const JointTrack& track) {
   return Quantile(std::move(heights), kFloorShare);
 }
 
-std::vector<Balance> BalanceOf(const Skeleton& skeleton, double fps, const JointTrack& track,
-                               double floor) {
-  if (!BalanceGauge::Fits(skeleton))
-    throw InvalidArgument("skeleton", skeleton.Describe() + " lacks joints that have mass");
-  if (track.empty()) throw InvalidArgument("track", "0 frames, at least 1 is needed");
-  const BalanceGauge gauge(skeleton, fps, floor);
-  std::vector<BodyPoints> points;
-  points.reserve(track.size());
-  for (const Eigen::Matrix3Xd& joints : track) points.push_back(gauge.Of(joints));
-  std::vector<Balance> balance;
-  balance.reserve(track.size());
-  for (size_t t = 0; t < track.size(); ++t) balance.push_back(gauge.At(points, t));
-  return balance;
-}
-
 WeightFigures MeasureWeight(const Skeleton& skeleton, double fps, const JointTrack& track,
                             double floor) {
   const std::vector<Balance> balance = BalanceOf(skeleton, fps, track, floor);
@@ -87,7 +66,8 @@ WeightFigures MeasureWeight(const Skeleton& skeleton, double fps, const JointTra
   for (const Balance& frame : balance)
     if (hovers(frame)) falls.push_back(frame.acceleration.y());
   figures.hover_acceleration = falls.empty() ? NAN : Median(std::move(falls));
-  figures.longest_hover_s = LongestHover(track, balance, floor + kMinHover) / fps;
+  figures.longest_hover_s =
+      static_cast<double>(LongestHover(track, balance, floor + kMinHover)) / fps;
   figures.zmp_outside = share(
       [](const Balance& frame) { return frame.zmp_outside.value_or(0) > kZeroMomentOutside; });
   figures.centre_outside =

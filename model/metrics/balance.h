@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "model/metrics/joint_track.h"
-#include "model/motion/floor/support.h"
+#include "model/motion/floor/hovers.h"
 #include "model/motion/skeleton.h"
 
 /// Measures whether a dancer seems to have weight: whether the feet support the body, and whether
@@ -15,11 +15,6 @@ namespace choreo {
 /// its toes or its ankle less 5 cm, whichever is lower. Needs at least one frame and all four foot
 /// joints.
 double DancedFloor(const Skeleton& skeleton, const JointTrack& track);
-
-/// The balance of each frame. `floor`: the floor's height, metres. Throws Error(kInvalidArgument)
-/// for a skeleton that BalanceGauge doesn't fit, or no frames.
-std::vector<Balance> BalanceOf(const Skeleton& skeleton, double fps, const JointTrack& track,
-                               double floor);
 
 struct WeightFigures {
   double hover_share = 0;  ///< share of frames with both feet more than 5 cm above the floor

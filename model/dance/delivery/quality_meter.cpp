@@ -10,12 +10,12 @@
 #include "model/core/numbers/quantile.h"
 #include "model/motion/kinematics/kinematic_beats.h"
 #include "model/motion/kinematics/kinematics.h"
+#include "model/motion/pose/motion_faults.h"
 
 namespace choreo {
 namespace {
 
 constexpr double kToeHeight = 0.05;  // metres
-constexpr double kSkateSpeed = 0.2;  // metres a second
 constexpr int64_t kFramesAroundKey = 2;
 
 }  // namespace

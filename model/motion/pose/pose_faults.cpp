@@ -6,8 +6,8 @@
 #include "model/core/hit.h"
 #include "model/core/rounded.h"
 #include "model/motion/floor/floor_clearance.h"
-#include "model/motion/floor/support.h"
 #include "model/motion/kinematics/kinematics.h"
+#include "model/motion/pose/motion_faults.h"
 #include "model/motion/rotation.h"
 
 namespace choreo {
@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kRounding = 0.01;  // degrees of tolerance, for files that contain the limit itself
 
-constexpr double kUnderFloor = 0.05;     // metres of tolerance for rounded poses
+constexpr double kInAir = 0.15;          // metres; less may be tiptoe
 constexpr double kMaxJumpSeconds = 1.0;  // seconds
 constexpr double kLimbSpeed = 7;         // m/s, about the body
 
@@ -37,7 +37,7 @@ std::string FloorFault(const Skeleton& skeleton, const Pose& pose, const PoseMas
   for (Eigen::Index joint = 0; joint < depth.cols(); ++joint) {
     if (known[static_cast<size_t>(joint)] && depth[joint] > depth[deepest]) deepest = joint;
   }
-  if (depth[deepest] > kUnderFloor) {
+  if (depth[deepest] > LimitOf(MotionFaultKind::kUnderFloor)) {
     return skeleton.joint_names[static_cast<size_t>(deepest)] + " is " +
            Rounded(100 * depth[deepest]) + " cm under the floor";
   }
