@@ -56,6 +56,7 @@ int main(int argc, char** argv) {
   choreo::cli::AddTransitionCommand(program);
   choreo::cli::AddEditCommand(program);
   choreo::cli::AddAnalyzeCommand(program);
+  choreo::cli::AddCheckCommand(program);
   choreo::cli::AddInfoCommand(program);
   choreo::cli::AddHealthCommand(program);
   choreo::cli::AddServeCommand(program);

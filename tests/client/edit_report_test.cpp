@@ -37,6 +37,23 @@ TEST_F(EditTest, AKeyOfTheReportComesAgain) {
   }
 }
 
+TEST_F(EditTest, TheReportHasTheFaultsOfTheNewDance) {
+  ASSERT_EQ(Choreo("dance --seconds 9 --keyframes none" + Server() + "-o " + At("dance.npz") +
+                   " --report " + At("report.json"))
+                .code,
+            0);
+  for (const std::string edit : {"--key kick --at 6", "--until 5"}) {
+    const Outcome outcome = Choreo("edit " + At("dance.npz") + " " + edit + " --report " +
+                                   At("report.json") + " --new-report " + At("new.json") + " -o " +
+                                   At("new.npz") + (edit == "--until 5" ? "" : Server()));
+    ASSERT_EQ(outcome.code, 0) << outcome.said;
+    const size_t faults = ReadJson(folder_ / "new.json")["faults"].size();
+    const Outcome listed = Choreo("check --json " + At("new.npz"));
+    EXPECT_EQ(nlohmann::json::parse(listed.said)["faults"].size(), faults);
+    EXPECT_THAT(outcome.said, testing::ContainsRegex("(no faults|[0-9]+ faults?: .*lists them)\n"));
+  }
+}
+
 // The report's beats may already be halved.
 TEST_F(EditTest, TheReportsBeatsAreCountedAsAskedOrRefused) {
   std::ofstream(folder_ / "beats.txt") << "1\n2\n3\n4\n5\n6\n7\n8\n9\n";

@@ -11,6 +11,7 @@ void AddLiveCommand(CLI::App& program);
 void AddTransitionCommand(CLI::App& program);
 void AddEditCommand(CLI::App& program);
 void AddAnalyzeCommand(CLI::App& program);
+void AddCheckCommand(CLI::App& program);
 void AddInfoCommand(CLI::App& program);
 void AddHealthCommand(CLI::App& program);
 void AddServeCommand(CLI::App& program);

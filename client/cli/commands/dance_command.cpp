@@ -128,7 +128,7 @@ void Run(const DanceOptions& options) {
   connection.reset();
   options.bvh.Write(out, dance.header.skeleton, dance.motion, dance.contacts);
   if (!options.report.empty()) WriteFile(options.report, ReportJson(written));
-  std::cout << ReportText(written) << out.string() << std::endl;
+  std::cout << ReportText(written) << FaultsText(written.faults, out) << out.string() << std::endl;
   while (show && !show->Over()) Interruption::Check();
   CheckKeys(written);
 }

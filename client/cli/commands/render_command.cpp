@@ -3,17 +3,16 @@
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
-#include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "client/authoring/fields/counts.h"
 #include "client/authoring/keys/motion_input.h"
-#include "client/authoring/music/music.h"
 #include "client/cli/commands/commands.h"
 #include "client/cli/options/interruption.h"
 #include "client/cli/options/options.h"
 #include "client/cli/options/output_file.h"
+#include "client/cli/report/dance_faults.h"
 #include "client/cli/report/dance_settings.h"
 #include "client/cli/report/report.h"
 #include "model/core/error.h"
@@ -73,13 +72,7 @@ authoring::Counts CountsFor(const RenderOptions& options, const DanceSettings& s
     return !time.empty() && authoring::ParseTime(time, "time").counts;
   };
   if (!in_counts(options.from) && !in_counts(options.until)) return {};
-  std::string song = options.song;
-  double start_s = options.film.format.song_start_s;
-  if (!settings.beats.empty()) return authoring::CountsFrom(settings.beats, settings.downbeats);
-  settings.FillSong(options.report, !song.empty(), "there are no counts", &song, &start_s);
-  if (song.empty()) return {};
-  return authoring::CountsOf(
-      authoring::ReadMusic(song, std::numeric_limits<double>::infinity(), start_s));
+  return CountsOf(settings, options.report, options.song, options.film.format.song_start_s);
 }
 
 /// Keeps only the part between --from and --until, with its keys and its part of the song.

@@ -223,7 +223,9 @@ void DanceTogether(const DanceOptions& options, const authoring::Dancers& stage,
     dance.performance = Perform(dance.plan, connection, dance.out, &none);
   }
   for (const Shared& dance : shared)
-    std::cout << dance.names() << ":\n" << ReportText(dance.performance.written);
+    std::cout << dance.names() << ":\n"
+              << ReportText(dance.performance.written)
+              << FaultsText(dance.performance.written.faults, dance.out);
 
   const Skeleton& skeleton = shared.front().performance.dance.header.skeleton;
   std::vector<client::FinishedDance> dances;
@@ -255,6 +257,7 @@ void DanceTogether(const DanceOptions& options, const authoring::Dancers& stage,
     written.settings.controls =
         OnStage(std::move(written.settings.controls), stage.dancers[i], delays[i], apart);
     written.sketch = SketchOf(dances[i].motion, written.figures.frames, written.fps);
+    written.faults = FindDanceFaults(skeleton, dances[i].motion, written.fps);
     WriteFile(reports[i], ReportJson(written));
   }
   for (const fs::path& output : outputs) std::cout << output.string() << std::endl;

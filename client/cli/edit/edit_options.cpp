@@ -14,6 +14,7 @@
 #include "model/core/files/atomic_file.h"
 #include "model/core/joined.h"
 #include "model/core/rounded.h"
+#include "model/formats/motion_file.h"
 #include "model/motion/controls/controls.h"
 #include "model/motion/resample.h"
 
@@ -244,13 +245,18 @@ ReportFile FitReport(ReportFile report, const std::string& name, int64_t frames,
   return report;
 }
 
-void WriteReport(const std::filesystem::path& path, ReportFile report, int64_t frames,
-                 const Motion& file) {
+void WriteEdited(const EditOptions& options, const Skeleton& skeleton,
+                 const client::FinishedDance& dance, ReportFile report, int64_t frames) {
+  WriteMotion(options.out, skeleton, dance.motion,
+              dance.contacts.empty() ? nullptr : &dance.contacts);
+  report.faults = FindDanceFaults(skeleton, dance.motion, report.fps);
+  std::cout << FaultsText(report.faults, options.out) << options.out << std::endl;
+  if (options.new_report.empty()) return;
   report.frames = frames;
-  report.sketch = SketchOf(file, frames, report.fps);
+  report.sketch = SketchOf(dance.motion, frames, report.fps);
   nlohmann::ordered_json written;
   report.WriteTo(&written);
-  WriteFile(path, written.dump(2) + "\n");
+  WriteFile(options.new_report, written.dump(2) + "\n");
 }
 
 }  // namespace choreo::cli

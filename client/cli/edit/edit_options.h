@@ -101,8 +101,9 @@ authoring::Counts ReadCounts(const EditOptions& options, double end_s);
 /// report's `name`, for the report of another dance.
 ReportFile FitReport(ReportFile report, const std::string& name, int64_t frames, double fps,
                      const Motion& file);
-/// Writes the report of an edited dance, for the next edit.
-void WriteReport(const std::filesystem::path& path, ReportFile report, int64_t frames,
-                 const Motion& file);
+/// Writes an edited dance and its report, for the next edit, to the options' files, and prints how
+/// many faults the dance has. `frames`: at the model's rate.
+void WriteEdited(const EditOptions& options, const Skeleton& skeleton,
+                 const client::FinishedDance& dance, ReportFile report, int64_t frames);
 
 }  // namespace choreo::cli

@@ -14,7 +14,6 @@
 #include "client/cli/report/report_controls.h"
 #include "model/core/limits.h"
 #include "model/core/rounded.h"
-#include "model/formats/motion_file.h"
 #include "model/motion/kinematics/mirror.h"
 #include "model/motion/resample.h"
 
@@ -116,13 +115,7 @@ class Whole {
                            next.known_.warnings.end());
   }
 
-  void Write() const {
-    WriteMotion(options_.out, skeleton_, dance_.motion,
-                dance_.contacts.empty() ? nullptr : &dance_.contacts);
-    std::cout << options_.out << std::endl;
-    if (!options_.new_report.empty())
-      WriteReport(options_.new_report, known_, Frames(), dance_.motion);
-  }
+  void Write() const { WriteEdited(options_, skeleton_, dance_, known_, Frames()); }
 
  private:
   /// Exchanges the sides of joints and parts in a message, but not in the ids of keys.

@@ -9,7 +9,6 @@
 #include "client/cli/report/dance_file.h"
 #include "client/cli/report/report.h"
 #include "model/core/rounded.h"
-#include "model/formats/motion_file.h"
 #include "model/motion/resample.h"
 
 namespace choreo::cli {
@@ -117,11 +116,7 @@ void WorkingDance::LeadBack(const EditReach::Loop& loop) {
 }
 
 void WorkingDance::Write() const {
-  WriteMotion(options_.out, settings_.model.skeleton, dance_.motion,
-              dance_.contacts.empty() ? nullptr : &dance_.contacts);
-  std::cout << options_.out << std::endl;
-  if (options_.new_report.empty()) return;
-  WriteReport(options_.new_report, report_.file(), times().frames, dance_.motion);
+  WriteEdited(options_, settings_.model.skeleton, dance_, report_.file(), times().frames);
 }
 
 template <class Edit>

@@ -198,6 +198,7 @@ void ReportFile::WriteTo(ordered_json* json) const {
   std::ranges::stable_sort(sorted, {}, &client::Warning::frame);
   for (const client::Warning& warning : sorted)
     warned.push_back({{"frame", warning.frame}, {"message", warning.message}});
+  (*json)["faults"] = FaultsJson(faults, {fps, counts});
 }
 
 ReportFile ReadReport(const std::filesystem::path& path) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "client/authoring/fields/counts.h"
+#include "client/cli/report/dance_faults.h"
 #include "client/cli/report/dance_settings.h"
 #include "client/cli/report/motion_sketch.h"
 #include "client/dance_messages.h"
@@ -44,7 +45,9 @@ struct ReportFile {
   DanceSettings settings = {};
   ReportKeys keys = {};
   std::vector<client::Warning> warnings = {};
-  authoring::Counts counts = {};  ///< of the song, if known: WriteTo adds them to the keys
+  /// Of the written motion. Not read: an edit finds those of the new dance.
+  std::vector<DanceFault> faults = {};
+  authoring::Counts counts = {};  ///< of the song, if known: WriteTo adds them to keys and faults
 
   void WriteTo(nlohmann::ordered_json* json) const;
 };

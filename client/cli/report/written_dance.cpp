@@ -40,6 +40,7 @@ WrittenDance Examine(const client::Header& header, const client::Report& figures
   dance.file_frames = std::ssize(motion.frames);
   dance.file_fps = motion.fps;
   dance.sketch = SketchOf(motion, figures.frames, header.model_fps);
+  dance.faults = FindDanceFaults(header.skeleton, motion, header.model_fps);
   for (const client::KeyPose& key : keys) {
     const auto reached = std::ranges::find(figures.keys, key.id, &client::KeyReached::id);
     if (reached == figures.keys.end() || motion.frames.empty())

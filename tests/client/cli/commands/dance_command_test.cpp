@@ -31,7 +31,7 @@ TEST_F(CommandTest, DancesThroughTheLibraryAndWritesBesideTheSong) {
   for (const auto& [member, value] : report.items()) members.push_back(member);
   EXPECT_THAT(members, testing::UnorderedElementsAre(
                            "frames", "fps", "output_frames", "output_fps", "seed", "fingerprint",
-                           "motion_sketch", "model", "song", "keyframes", "warnings",
+                           "motion_sketch", "model", "song", "keyframes", "warnings", "faults",
                            "measured_from", "log_likelihood", "beat_hit_rate", "beat_hit_chance",
                            "beat_coverage", "skate_ratio", "support", "max_key_acceleration",
                            "p95_acceleration", "first_frame_latency_s", "real_time_factor"));
@@ -45,6 +45,12 @@ TEST_F(CommandTest, DancesThroughTheLibraryAndWritesBesideTheSong) {
   EXPECT_GT(report["beat_coverage"].get<double>(), 0);
   EXPECT_LE(report["beat_hit_chance"].get<double>(), 5.0 / 15);
   EXPECT_THAT(outcome.said, HasSubstr("measured in the file"));
+  EXPECT_THAT(outcome.said,
+              testing::ContainsRegex("(no faults|[0-9]+ faults?: .*song.npz lists them)\n"));
+  const Outcome listed =
+      Choreo("check --json " + At("song.npz") + " --report " + At("report.json"));
+  ASSERT_EQ(listed.code, 0) << listed.said;
+  EXPECT_EQ(nlohmann::json::parse(listed.said)["faults"].size(), report["faults"].size());
   ASSERT_GE(report["keyframes"].size(), 4U);
   for (const auto& key : report["keyframes"]) {
     EXPECT_LE(key["final_error_m"].get<double>(), 0.001);
