@@ -10,6 +10,7 @@
 #include "model/core/files/atomic_file.h"
 #include "model/core/files/small_extension.h"
 #include "model/formats/motion_file.h"
+#include "model/motion/pose/motion_faults.h"
 #include "studio/from_page.h"
 #include "studio/scratch_folder.h"
 
@@ -85,6 +86,20 @@ Response ReadClip(const StudioContext& context, const File& file) {
   clip->set_frame_rate(motion.fps);
   *clip->mutable_frames() = wire::ToProto(0, motion.frames, {});
   for (const std::string& note : notes) clip->add_notes(note);
+  return response;
+}
+
+Response CheckClip(const StudioContext& context, const Clip& clip) {
+  const Skeleton& skeleton = context.model().skeleton;
+  Response response;
+  Faults* faults = response.mutable_faults();
+  for (const MotionFault& found : FindMotionFaults(skeleton, FromProto(clip, skeleton).motion)) {
+    Fault* fault = faults->add_faults();
+    fault->set_first_frame(found.first);
+    fault->set_last_frame(found.last);
+    fault->set_kind(std::string(found.row().name));
+    fault->set_text(Describe(skeleton, found));
+  }
   return response;
 }
 

@@ -12,6 +12,7 @@ std::shared_ptr<const Song> HearSongOf(const StudioContext& context, const File&
 Response ComposeKeys(const StudioContext& context, const Song* music, const Compose& request);
 Response WriteClip(const StudioContext& context, const Export& request);
 Response ReadClip(const StudioContext& context, const File& file);
+Response CheckClip(const StudioContext& context, const Clip& clip);
 Response MakePhotoPose(const StudioContext& context, const File& landmarks);
 
 }  // namespace choreo::studio

@@ -239,6 +239,8 @@ void PageSession::Do(const Request& request) {
       return Answer(call, WriteClip(context_, request.export_()));
     case Request::kOpen:
       return Answer(call, ReadClip(context_, request.open()));
+    case Request::kCheck:
+      return Answer(call, CheckClip(context_, request.check()));
     case Request::kLandmarks:
       return Answer(call, MakePhotoPose(context_, request.landmarks()));
     case Request::kRead:

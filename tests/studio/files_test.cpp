@@ -11,6 +11,7 @@
 #include "client/authoring/project/project_file.h"
 #include "client/convert.h"
 #include "model/audio/music/made_song.h"
+#include "model/motion/kinematics/kinematics.h"
 #include "proto/wire/control_messages.h"
 #include "studio/project_dance.h"
 #include "tests/studio/opened_studio.h"
@@ -184,6 +185,30 @@ TEST_F(StudioTest, WritesAndOpensFiles) {
 }
 
 // Three numbers for each frame are two more than 2^32.
+TEST_F(StudioTest, FindsTheFaultsOfAClip) {
+  const Opened studio(server_.address());
+  Page page(studio.port());
+  Request check;
+  Clip* clip = check.mutable_check();
+  clip->set_frame_rate(30);
+  std::vector<Pose> poses(120, StandingPose(Skeleton::Smpl24()));
+  *clip->mutable_frames() = wire::ToProto(0, poses, {});
+  Response answer = page.Ask(check);
+  ASSERT_TRUE(answer.has_faults()) << answer.failure().message();
+  EXPECT_EQ(answer.faults().faults_size(), 0);
+  for (size_t frame = 30; frame < 90; ++frame) poses[frame].root_position.y() += 0.5;
+  *clip->mutable_frames() = wire::ToProto(0, poses, {});
+  answer = page.Ask(check);
+  ASSERT_EQ(answer.faults().faults_size(), 1);
+  const Fault& fault = answer.faults().faults(0);
+  EXPECT_EQ(fault.first_frame(), 30);
+  EXPECT_EQ(fault.last_frame(), 89);
+  EXPECT_EQ(fault.kind(), "floating");
+  EXPECT_EQ(fault.text(), "the body floats 50 cm above the floor");
+  clip->mutable_frames()->set_count(121);
+  EXPECT_THAT(page.Ask(check).failure().message(), HasSubstr("121"));
+}
+
 TEST_F(StudioTest, RefusesAClipOfFarTooManyFrames) {
   const Opened studio(server_.address());
   Page page(studio.port());

@@ -2,6 +2,7 @@
 import { signal } from '@preact/signals';
 import { confidence, tempo } from '../project/counts';
 import { DancersPanel } from './dancers_panel';
+import { FaultsPanel } from '../timeline/faults';
 import { KeepTake } from './keep_take';
 import { MarkersPanel } from './markers_panel';
 import { PathPoints } from './path_points';
@@ -211,6 +212,7 @@ export function Panels({ stage }: { stage: Stage | null }) {
   return (
     <aside class="panels" aria-label="Settings">
       <KeyPanel stage={stage} />
+      <FaultsPanel />
       <PhrasePanel />
       <MarkersPanel />
       <TakesPanel />

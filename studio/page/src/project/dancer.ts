@@ -4,6 +4,7 @@ import type { ModelInfo } from '../generated/choreo/v1/choreography_pb';
 import { Motion } from './motion';
 import { poseMessage, projectMessage } from './project_file';
 import type { Project } from './project';
+import type { Fault } from './state';
 import type { Wire } from './wire';
 
 /// Receives the progress of a dance.
@@ -70,6 +71,13 @@ export class Dancer {
       part.append(frames);
       return motion.with(from + 1, part);
     });
+  }
+
+  /// What looks wrong in a dance.
+  async check(motion: Motion): Promise<Fault[]> {
+    const answer = await this.wire.request({ case: 'check', value: motion.toClip() });
+    if (answer.case !== 'faults') return [];
+    return answer.value.faults.map(({ firstFrame, lastFrame, text }) => ({ from: Number(firstFrame), to: Number(lastFrame), text: text.replaceAll('_', ' ') }));
   }
 
   /// Whether one transition can span the interval.

@@ -16,6 +16,8 @@ export type Moment = {
   motion: Signal<Motion>;
   before: Motion;
   warnings: Signal<Warning[]>;
+  /// What looks wrong in its motion; null while that is not known.
+  faults: Signal<Fault[] | null>;
   ready: Promise<Motion>;
   isReady: boolean;
   /// How to make its motion, if that has failed.
@@ -23,6 +25,8 @@ export type Moment = {
 };
 /// A possible problem, and its frame.
 export type Warning = { frame: number; text: string };
+/// What looks wrong from one frame to another, for people.
+export type Fault = { from: number; to: number; text: string };
 export type Song = { name: string; url: string; bytes: Uint8Array; analysis: SongHeard };
 /// A picture and its landmarks, 0 to 1 along its sides.
 export type Photo = { url: string; width: number; height: number; marks: { x: number; y: number; visibility: number }[] };
@@ -61,6 +65,7 @@ export const motion = computed(() => live.value?.motion ?? moment.value?.motion.
 /// The song on the timeline.
 export const shownSong = computed(() => (live.value ? null : song.value));
 export const warnings = computed(() => moment.value?.warnings.value ?? []);
+export const faults = computed(() => moment.value?.faults.value ?? null);
 
 /// The project as last begun, opened or saved.
 export const savedProject = signal<Project | undefined>(undefined);

@@ -31,6 +31,18 @@ const recordWarning = (list: Signal<Warning[]>) => (text: string, frame?: number
   if (!list.value.some((known) => known.frame === frame && known.text === text)) list.value = [...list.value, { frame, text }];
 };
 
+/// Finds what looks wrong in a moment's motion.
+async function findFaults(of: Moment) {
+  const checked = of.motion.value;
+  if (checked.count === 0) return;
+  try {
+    const found = await dancer.check(checked);
+    if (of.isReady && of.motion.value === checked) of.faults.value = found;
+  } catch (error) {
+    showError(error);
+  }
+}
+
 /// Makes a moment's motion. Until it is complete, the page shows the frames that `make` has so far.
 function fill(filled: Moment, make: Make) {
   const show = (longer: Motion) => {
@@ -40,6 +52,7 @@ function fill(filled: Moment, make: Make) {
   busy.value += 1;
   filled.isReady = false;
   filled.unmade = null;
+  filled.faults.value = null;
   filled.ready = make({ onFrames: show, onWarning: recordWarning(filled.warnings) })
     .then(show, (error) => {
       filled.unmade = make;
@@ -48,6 +61,7 @@ function fill(filled: Moment, make: Make) {
     .then(() => {
       busy.value -= 1;
       filled.isReady = true;
+      void findFaults(filled);
       return filled.motion.value;
     });
 }
@@ -71,6 +85,7 @@ export function push(next: Project, shown: Motion, make: Make, known: Warning[] 
     motion: signal(shown),
     before: motion.value ?? shown,
     warnings: signal(known),
+    faults: signal(null),
     ready: Promise.resolve(shown),
     isReady: false,
     unmade: null,

@@ -8,6 +8,7 @@ import type { Pose } from '../project/body';
 import { colour } from '../scene/palette';
 import { displayName } from '../project/project';
 import type { Key } from '../project/project';
+import { FaultMarks } from './faults';
 import { HitGrip } from './hit_grip';
 import { HoldGrip } from './hold_grip';
 import { MarkerFlags } from './marker_flags';
@@ -270,6 +271,7 @@ export function Timeline({ pictureOf }: { pictureOf: (pose: Pose) => string }) {
       <div class="scroll">
         <div class="content" ref={box} style={{ width: `${2 * edge + seconds() * zoom.value}px` }}>
           <Scrubber />
+          {shown && !studio.live.value && <FaultMarks />}
           <Suggestions />
           <div class="lane" role="group" aria-label="Key poses">
             {shown && <div class="danced" style={{ left: `${edge}px`, width: `${there * zoom.value}px` }} />}
