@@ -10,6 +10,7 @@
 #include "model/evaluation/judges/long_plans.h"
 #include "model/evaluation/tables/liveliness_figures.h"
 #include "model/motion/kinematics/kinematics.h"
+#include "model/motion/rotation.h"
 #include "tests/support/fake_sampler.h"
 #include "tests/support/synthetic_clips.h"
 
@@ -88,6 +89,22 @@ TEST(KeyedDances, FootworkKeepsKeysOfRealMotionAndReducesSkating) {
     EXPECT_LT(ComparePoses(Body(), standing[static_cast<size_t>(frame)], pose).position_m, 1e-3);
   EXPECT_LT(MeasureLiveliness(model, plan, standing).skate_ratio,
             0.5 * MeasureLiveliness(model, plan, RealMotionBeside(plan, set)).skate_ratio);
+}
+
+TEST(KeyedDances, ArmsInsideTheTrunkAreCounted) {
+  const ModelInfo model = FakeSampler().model();
+  const ClipSet set = Clips(780);
+  const LongPlan plan = PlanKeyedDances(model, set, 0)[0];
+  std::vector<Pose> poses(99, StandingPose(Body()));
+  LongPlan standing = plan;
+  standing.history.back() = poses.front();
+  EXPECT_EQ(MeasureLiveliness(model, standing, poses).arms_inside, 0);
+  for (size_t frame = 50; frame < 75; ++frame) {
+    poses[frame].rotations.col(Body().left_shoulder) =
+        LogMap(ExpMap({0, 0, -1.3}) * ExpMap({0, -0.16, 0}));
+    poses[frame].rotations.col(Body().left_elbow) = LogMap(ExpMap({0, 0, -1.4}));
+  }
+  EXPECT_NEAR(MeasureLiveliness(model, standing, poses).arms_inside, 0.25, 1e-9);
 }
 
 // A dance whose mean joint speed peaks every `period` frames from `first` on.

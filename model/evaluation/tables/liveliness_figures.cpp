@@ -7,6 +7,7 @@
 #include "model/metrics/contrast.h"
 #include "model/motion/kinematics/canonical.h"
 #include "model/motion/kinematics/kinematic_beats.h"
+#include "model/motion/pose/motion_faults.h"
 
 namespace choreo {
 
@@ -27,8 +28,10 @@ LivelinessFigures MeasureLiveliness(const ModelInfo& model, const LongPlan& plan
   figures.bounce = PelvisBounce(figures.track, model.fps);
   figures.jerk = SmoothJerk(figures.track, model.fps);
   figures.raw_jerk = RawJerk(figures.track, model.fps);
-  figures.skate_ratio =
-      MeasureMotion(model.skeleton, {.fps = model.fps, .frames = whole}).skate_ratio;
+  const Motion motion{.fps = model.fps, .frames = whole};
+  figures.skate_ratio = MeasureMotion(model.skeleton, motion).skate_ratio;
+  figures.arms_inside = FaultShare(FindMotionFaults(model.skeleton, motion),
+                                   MotionFaultKind::kArmInside, std::ssize(whole));
   const double a_minute = 60 * model.fps / poses.size();
   figures.kinematic_beats = a_minute * KinematicBeats(figures.speeds, model.fps).size();
   const Snaps snaps = CountSnaps(model.skeleton, model.fps, figures.track);

@@ -18,6 +18,7 @@ struct LivelinessFigures {
   double skate_ratio = 0;                  ///< quality_report.h
   double kinematic_beats = 0;              ///< per minute
   double knee_snaps = 0, elbow_snaps = 0;  ///< CountSnaps, per minute
+  double arms_inside = 0;                  ///< share of frames (MotionFaultKind::kArmInside)
   JointTrack track;                        ///< begins with the pose before the first frame
   std::vector<float> speeds;               ///< mean joint speed of each frame, m/s
   std::vector<double> turns;               ///< WindowTurns, from that pose on

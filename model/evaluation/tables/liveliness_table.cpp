@@ -144,6 +144,7 @@ void AddMovement(const KeyedDances& dances, Table* table) {
   add("skating %", &LivelinessFigures::skate_ratio, 100);
   add("knee snaps a minute", &LivelinessFigures::knee_snaps, 1);
   add("elbow snaps a minute", &LivelinessFigures::elbow_snaps, 1);
+  add("arms inside the trunk %", &LivelinessFigures::arms_inside, 100);
   add("kinematic beats a minute", &LivelinessFigures::kinematic_beats, 1);
 }
 
