@@ -62,10 +62,11 @@ const launch = (...args) => chromium.launch({
 });
 
 let passed = 0;
+let shownAs = ''; // how the page is shown now
 export const check = async (what, body) => {
   await body();
   ++passed;
-  console.log(`ok: ${what}`);
+  console.log(`ok: ${shownAs}${what}`);
 };
 
 /// Opens the page, and knows how to use it.
@@ -129,30 +130,34 @@ const smallTargets = (page) => page.evaluate(() => [...document.querySelectorAll
   .filter(([at, { width, height }]) => height < 43.9 || (width < 43.9 && !at.matches('.interval')))
   .map(([at, { width, height }]) => `${at.ariaLabel || at.textContent || at.tagName} ${width} × ${height}`));
 
-/// Pictures of the page as phones and wide screens have it, light and dark: PREFIX390-light.png ... The page is then light, and as large as before.
+/// How people see the page: on wide screens and phones, light and dark.
+const looks = ['light', 'dark'].flatMap((colorScheme) => [[1600, 1000], [390, 844]].map(([width, height]) =>
+  ({ colorScheme, viewport: { width, height }, isDark: colorScheme === 'dark', isPhone: width < 900, name: `${width}-${colorScheme}` })));
+
+/// A picture of the page as it is shown now, PREFIX390-light.png, on which all is large enough and nothing hangs over the edge.
+async function takePicture(page, prefix, { viewport, isPhone, name }) {
+  await page.waitForTimeout(2500); // the camera goes there
+  const wide = await page.evaluate(() => document.documentElement.scrollWidth > innerWidth);
+  if (wide) throw new Error(`at ${viewport.width} pixels the page is wider than the window`);
+  const small = isPhone ? await smallTargets(page) : [];
+  if (small.length) throw new Error(`smaller than a finger at ${viewport.width} pixels: ${small}`);
+  await page.screenshot({ path: inFolder(`${prefix}${name}.png`), fullPage: isPhone, timeout: patience });
+}
+
+/// Such pictures of one page in every look. The page is then light, and as large as before.
 export async function takePictures(page, prefix = '') {
   const size = page.viewportSize();
-  for (const colorScheme of ['light', 'dark']) {
-    for (const [width, height] of [[390, 844], [1600, 1000]]) {
-      await page.setViewportSize({ width, height });
-      await page.emulateMedia({ colorScheme });
-      await page.waitForTimeout(2500);
-      const wide = await page.evaluate(() => document.documentElement.scrollWidth > innerWidth);
-      if (wide) throw new Error(`at ${width} pixels the page is wider than the window`);
-      const small = width < 900 ? await smallTargets(page) : [];
-      if (small.length) throw new Error(`smaller than a finger at ${width} pixels: ${small}`);
-      await page.screenshot({ path: inFolder(`${prefix}${width}-${colorScheme}.png`), fullPage: width < 900, timeout: patience });
-    }
+  for (const look of looks) {
+    await page.setViewportSize(look.viewport);
+    await page.emulateMedia({ colorScheme: look.colorScheme });
+    await takePicture(page, prefix, look);
   }
   await page.setViewportSize(size);
   await page.emulateMedia({ colorScheme: 'light' });
 }
 
-/// A finger on the page: it taps in the middle of what is found there, and drags that by pixels to the right.
-export async function finger(page) {
-  const devtools = await page.context().newCDPSession(page);
-  await devtools.send('Emulation.setTouchEmulationEnabled', { enabled: true });
-  const touch = (type, ...touchPoints) => devtools.send('Input.dispatchTouchEvent', { type, touchPoints });
+/// A hand on the page whose tip goes down, moves and comes up.
+function handOf(page, { down, move, up }) {
   const middleOf = async (part) => {
     await part.scrollIntoViewIfNeeded();
     const { x, y, width, height } = await part.boundingBox();
@@ -164,23 +169,57 @@ export async function finger(page) {
     assert.equal(covers, null, `${part} is covered`);
     return middle;
   };
+  const steps = 4;
+  /// Drags from a place by pixels: up or down, then aside, as lists do not scroll with that. Calls `there` before it lets go.
+  const dragFrom = async ({ x, y }, right, below, there) => {
+    await down({ x, y });
+    for (let step = 1; step <= steps && below; ++step) await move({ x, y: y + (step * below) / steps });
+    for (let step = 1; step <= steps; ++step) await move({ x: x + (step * right) / steps, y: y + below });
+    await page.evaluate(() => new Promise(requestAnimationFrame)); // with which a finger's moves come
+    await there?.();
+    await up();
+  };
   return {
+    /// Taps in the middle of what is found there.
     tap: async (part) => {
-      await touch('touchStart', await middleOf(part));
-      await touch('touchEnd');
+      await down(await middleOf(part));
+      await up();
     },
-    drag: async (part, right) => {
-      const { x, y } = await middleOf(part);
-      await touch('touchStart', { x, y });
-      for (let step = 1; step <= 4; ++step) await touch('touchMove', { x: x + (step * right) / 4, y });
-      await touch('touchEnd');
+    /// Drags it by pixels to the right.
+    drag: async (part, right, there) => dragFrom(await middleOf(part), right, 0, there),
+    /// Carries it to the middle of another part, or beside that.
+    carry: async (part, onto, right = 0, there) => {
+      const from = await middleOf(part);
+      const { x, y, width, height } = await onto.boundingBox();
+      await dragFrom(from, x + width / 2 + right - from.x, y + height / 2 - from.y, there);
     },
   };
 }
 
+const mouse = (page) => handOf(page, {
+  down: async ({ x, y }) => {
+    await page.mouse.move(x, y);
+    await page.mouse.down();
+  },
+  move: ({ x, y }) => page.mouse.move(x, y),
+  up: () => page.mouse.up(),
+});
+
+async function finger(page) {
+  const devtools = await page.context().newCDPSession(page);
+  await devtools.send('Emulation.setTouchEmulationEnabled', { enabled: true });
+  const touch = (type) => (...touchPoints) => devtools.send('Input.dispatchTouchEvent', { type, touchPoints });
+  return handOf(page, { down: touch('touchStart'), move: touch('touchMove'), up: touch('touchEnd') });
+}
+
 /// Runs what people do, `body`, on the page of a studio of its own, in a browser that is launched with `args`. Afterwards nothing may have left
 /// this machine, nothing may have broken, and Ctrl-C has to end the program in order.
-export async function inStudio(body, ...args) {
+export const inStudio = (body, ...args) => inStudioOf([{}], body, ...args);
+
+/// The same on a page for each look, by mouse on wide screens, by finger on phones. `isFirst`: what looks alike everywhere is done there alone.
+export const inEachLook = (body) => inStudioOf(looks, body);
+
+async function inStudioOf(shown, body, ...args) {
   let { studio, url } = await open('127.0.0.1:0');
   /// The program, as it dies and comes back.
   const host = {
@@ -195,13 +234,22 @@ export async function inStudio(body, ...args) {
   const browser = await launch(...args);
   let visitor;
   try {
-    visitor = await visit(browser, url);
-    await visitor.page.getByRole('button', { name: 'Choose a song' }).waitFor();
-    await body({ ...visitor, host });
-    await check('nothing left this machine, and nothing broke', async () => {
-      assert.deepEqual(visitor.strangers, []);
-      assert.deepEqual(visitor.errors, []);
-    });
+    for (const look of shown) {
+      const { viewport, colorScheme, isPhone, name } = look;
+      shownAs = name ? `${name}: ` : '';
+      visitor = await visit(browser, url, viewport && { viewport, colorScheme });
+      const { page } = visitor;
+      await page.getByRole('button', { name: 'Choose a song' }).waitFor();
+      await visitor.until(() => window.choreo?.isConnected.value);
+      const hand = isPhone ? await finger(page) : mouse(page);
+      const takeIt = (prefix) => takePicture(page, prefix, look);
+      await body({ ...visitor, ...look, host, hand, isFirst: look === shown[0], takeIt });
+      await check('nothing left this machine, and nothing broke', async () => {
+        assert.deepEqual(visitor.strangers, []);
+        assert.deepEqual(visitor.errors, []);
+      });
+      await page.close();
+    }
   } catch (error) {
     await visitor?.page.screenshot({ path: inFolder('failed.png') }).catch(() => {});
     throw error;

@@ -7,7 +7,7 @@ import * as studio from '../session/studio';
 function Flag({ marker }: { marker: Marker }) {
   const { fps } = studio.dancer;
   const seek = () => (studio.audio.currentTime = marker.frame / fps);
-  const [dragged, grab] = useFrameDrag({ marker, drop: (to) => studio.moveMarker(marker, to), press: seek });
+  const [dragged, grab] = useFrameDrag({ from: marker.frame, marker, drop: (to) => studio.moveMarker(marker, to), press: seek });
   const frame = dragged ?? marker.frame;
   const press = (event: KeyboardEvent) => {
     if (event.key === 'Enter') seek();
