@@ -227,6 +227,88 @@ await inEachLook(async ({ page, until, settle, message, scale, frames, give, han
     await page.evaluate(() => (window.choreo.audio.currentTime = 0));
   });
 
+  await check('a pose set 0.1 s beside a key stands where it was dropped, in place of that one and unlike it', async () => {
+    const before = await keys();
+    const { id, frame } = before[2];
+    await page.evaluate((id) => window.choreo.hitKey(id, 2), id);
+    await settle();
+    await page.keyboard.down('Alt');
+    await hand.carry(library.nth(1), key(2), 0.1 * (await scale()), async () =>
+      assert.deepEqual(await page.locator('.key.replaced').evaluateAll((all) => all.map(({ dataset }) => dataset.key)), [id]));
+    await page.keyboard.up('Alt');
+    await settle();
+    const after = await page.evaluate(() => window.choreo.project.value.keys.map(({ id, frame, hold, hit, hands }) => ({ id, frame, hold, hit, hands })));
+    assert.deepEqual(after.map(({ id }) => id).filter((id) => before.every((key) => key.id !== id)), [after[2].id]);
+    assert.deepEqual([after.length, after[2].frame, after[2].hold, after[2].hit, after[2].hands], [before.length, frame + 3, 0, null, 0]);
+    const { text } = await message();
+    assert.ok(text.includes(`in place of ${id.replaceAll('_', ' ')} less than 0.2 s away`) && text.includes('Undo'), text);
+    await undo(2);
+    assert.deepEqual(await keys(), before);
+  });
+
+  await check('so does a key that is moved beside another one, or onto it, and it stays as it was', async () => {
+    const before = await keys();
+    const [, , other, moved] = before;
+    const away = other.frame - moved.frame;
+    await page.evaluate((id) => window.choreo.hitKey(id, 2), moved.id);
+    await settle();
+    const danced = await frames();
+    for (const beside of [3, 0]) {
+      if (beside) await page.keyboard.down('Alt');
+      await hand.drag(key(3), ((away + beside) / 30) * (await scale()));
+      await page.keyboard.up('Alt');
+      await settle();
+      const expected = before.filter(({ id }) => id !== other.id).map((key) => (key.id === moved.id ? { ...key, frame: other.frame + beside } : key));
+      assert.deepEqual(await keys(), expected);
+      assert.equal(await page.evaluate((id) => window.choreo.keyOf(id).hit, moved.id), 2);
+      const { text } = await message();
+      assert.ok(text.includes(`in place of ${other.id.replaceAll('_', ' ')}${beside ? ' less than' : ' now'}`) && text.includes('Undo'), text);
+      await undo();
+    }
+    assert.deepEqual(await frames(), danced);
+    await undo();
+    assert.deepEqual(await keys(), before);
+  });
+
+  await check('all keys near a new one make way, but not the one with which the dance begins', async () => {
+    const before = await keys();
+    const { frame } = before[2];
+    const pose = (nth) => page.evaluate((nth) => window.choreo.welcome.value.poses[nth].id, nth);
+    const add = async (nth, at) => {
+      await page.evaluate(([nth, at]) => window.choreo.addKey(window.choreo.welcome.value.poses[nth], at), [nth, at]);
+      await settle();
+    };
+    await add(1, frame + 8);
+    assert.equal((await keys()).length, before.length + 1);
+    await add(3, frame + 4);
+    assert.equal((await keys()).length, before.length);
+    const { text } = await message();
+    for (const id of [before[2].id, await pose(1)]) assert.ok(text.includes(id.replaceAll('_', ' ')), text);
+    await undo(2);
+    await page.evaluate(([first]) => window.choreo.moveKey(first.id, 0), before);
+    await settle();
+    const begun = await keys();
+    await add(1, 3);
+    assert.deepEqual((await keys()).map(({ frame }) => frame).slice(0, 2), [0, 3]);
+    await undo();
+    assert.deepEqual(await keys(), begun);
+    while (JSON.stringify(await keys()) !== JSON.stringify(before)) await undo();
+  });
+
+  await check('copied keys take the place of those near to them, and keep each other', async () => {
+    const before = await keys();
+    await key(1).click();
+    await page.keyboard.press('Control+c');
+    await seek((before[2].frame + 3) / 30);
+    await page.keyboard.press('Control+v');
+    await settle();
+    const after = await keys();
+    assert.deepEqual([after.length, after[2].frame], [before.length, before[2].frame + 3]);
+    assert.ok((await message()).text.includes(`in place of ${before[2].id.replaceAll('_', ' ')}`), (await message()).text);
+    await undo();
+    assert.deepEqual(await keys(), before);
+  });
+
   await check('a pose that is pressed while the playhead rests on a key takes its place', async () => {
     const before = await keys();
     await page.locator('.key').nth(1).click();

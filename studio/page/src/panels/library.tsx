@@ -23,9 +23,10 @@ const carried = signal<{ pose: LibraryPose; x: number; y: number } | null>(null)
 /// Drags a pose with the pointer until it is dropped.
 const carry = (pose: LibraryPose) => (event: PointerEvent) => {
   const from = { x: event.clientX, y: event.clientY };
-  drag(event, ({ clientX: x, clientY: y }) => {
+  drag(event, (at) => {
+    const { clientX: x, clientY: y } = at;
     if (carried.value || Math.hypot(x - from.x, y - from.y) > 6) carried.value = { pose, x, y };
-    dropPose.value = carried.value ? frameUnder(x, y) : null;
+    dropPose.value = carried.value ? frameUnder(at) : null;
   }, (isDropped) => {
     const at = carried.value && isDropped ? dropPose.value : null;
     if (at !== null) studio.addKey(pose, at);

@@ -80,6 +80,8 @@ export async function begin(body: () => Promise<void>) {
 }
 
 export const notify = (text: string) => (message.value = { text, isError: false });
+/// Shows those notes that are not empty, together.
+export const notifyOf = (...notes: string[]) => notes.some(Boolean) && notify(notes.filter(Boolean).join(' '));
 /// The opened file's name and problems.
 export const opened = (name: string, what: string, notes: string[]) => [`${name}: ${what}.`, ...notes.map((note) => `Note: ${note}.`)].join(' ');
 export const showError = (error: unknown) =>

@@ -5,13 +5,13 @@ import { heading, turned } from '../project/body';
 import type { Triple } from '../project/body';
 import { onPath } from './floor_path';
 import { edit, total } from './history';
-import { freeFrame, isTooNear, keyOf } from './keys';
+import { isTooNear, keyOf, noteOfWay, roomFor } from './keys';
 import { dancer } from './link';
 import { limits } from '../project/limits';
 import { freeId, sorted, displayName } from '../project/project';
 import type { Key } from '../project/project';
 import { audio } from './songs';
-import { selection, showError, live, motion, project, selectedKey, notify } from '../project/state';
+import { selection, showError, live, motion, project, selectedKey, notify, notifyOf } from '../project/state';
 
 const copied = signal<Key[]>([]);
 export const canPaste = computed(() => copied.value.length > 0);
@@ -80,19 +80,21 @@ export function endIn(id: string) {
 function set(keys: Key[], at: number) {
   if (live.value || !project.value) return;
   const first = keys[0];
-  let all = project.value.keys;
-  const added: Key[] = [];
+  const before = project.value.keys;
+  const added: Key[] = []; // which keep each other
+  const gone = new Set<Key>();
   for (const key of keys) {
-    const frame = freeFrame(all, at + key.frame - first.frame);
-    if (frame === null) continue;
-    const set = onPath(project.value.path, { ...moved(key, first, at), id: freeId(all, key.id), frame });
-    added.push(set);
-    all = sorted([...all, set]);
+    const room = roomFor(before, at + key.frame - first.frame);
+    if (!room || added.some(({ frame }) => Math.abs(frame - room.frame) < limits.keyDistance)) continue;
+    added.push(onPath(project.value.path, { ...moved(key, first, at), id: freeId([...before, ...added], key.id), frame: room.frame }));
+    for (const other of room.gone) gone.add(other);
   }
   if (added.length === 0) return showError(new Error('There is no room for a key here.'));
   selectedKey.value = added[0].id;
-  edit({ ...project.value, keys: all }, added.map(({ frame }) => frame));
-  if (added.length < keys.length) notify(`${keys.length - added.length} of ${keys.length} keys found no room.`);
+  const stay = before.filter((key) => !gone.has(key));
+  edit({ ...project.value, keys: sorted([...stay, ...added]) }, [...added, ...gone].map(({ frame }) => frame));
+  const without = keys.length - added.length;
+  notifyOf(without ? `${without} of ${keys.length} keys found no room.` : '', noteOfWay(added, [...gone]));
 }
 
 /// Turns and moves a key by the transform that takes the first key to the dancer's place at that frame.

@@ -15,12 +15,12 @@ import { projectMessage, readKey } from '../project/project_file';
 import { emptyProject, freeId, holdOf, isInHold, sorted, displayName, settingsOf } from '../project/project';
 import type { Key } from '../project/project';
 import { audio } from './songs';
-import { showError, danced, live, message, moment, motion, project, selectedKey, sketch, song, notify, work } from '../project/state';
+import { showError, danced, live, message, moment, motion, project, selectedKey, sketch, song, notify, notifyOf, work } from '../project/state';
 import type { Moment } from '../project/state';
 
-const reach = 15; // frames within which a key looks for another place if its own is taken
+const reach = 15; // frames behind the end from which a key comes to the last frame
 
-/// Whether a pose set at one frame replaces a key at the other.
+/// Whether a key set at one frame removes one at the other.
 export const isTooNear = (a: number, b: number) => Math.abs(a - b) < limits.tooNearS * dancer.fps;
 
 /// Key poses from the library on the song's beats, as a first dance.
@@ -42,34 +42,45 @@ export async function compose() {
   danceFrom({ ...empty, ...settings, dancers: before.dancers, apart: before.apart, beats, markers, seed, keys: named.map((key) => onPath(settings.path, key)) }, -1);
 }
 
-/// The free frame nearest to a wanted one; null if none is near.
-export function freeFrame(keys: Key[], frame: number): number | null {
+/// The frame of a key that is set at a wanted one, and those of `keys` that make way for it, as in the program
+/// (client/cli/edit/key_room.cpp): where the dance begins, a key stays unless another is set there. Null outside the dance.
+export function roomFor(keys: Key[], wanted: number): { frame: number; gone: Key[] } | null {
   const most = dancer.frames(project.value) - 1;
-  for (let away = 0; away < reach; ++away) {
-    for (const at of [frame + away, frame - away]) {
-      if (at >= 0 && at <= most && keys.every((key) => Math.abs(key.frame - at) >= limits.keyDistance)) return at;
-    }
-  }
-  return null;
+  if (wanted >= most + reach) return null;
+  const asked = Math.max(0, Math.min(wanted, most));
+  const first = asked > 0 && keys.find(({ frame }) => frame === 0);
+  const frame = first ? Math.max(asked, limits.keyDistance) : asked;
+  return frame > most ? null : { frame, gone: keys.filter((key) => key !== first && isTooNear(key.frame, frame)) };
 }
 
-/// The key that a pose set at a frame would replace: the nearest, if it is close enough.
-export function keyNear(frame: number): Key | undefined {
-  const away = (key: Key) => Math.abs(key.frame - frame);
-  const near = live.value ? [] : project.value?.keys.filter((key) => isTooNear(key.frame, frame)) ?? [];
-  return near.sort((a, b) => away(a) - away(b))[0];
+/// The keys that a pose set at a frame would replace. One at the very frame gives its place alone.
+export function replaced(frame: number): Key[] {
+  if (live.value || !project.value) return [];
+  const there = project.value.keys.find((key) => key.frame === frame);
+  return there ? [there] : roomFor(project.value.keys, frame)?.gone ?? [];
 }
 
-/// Sets a pose of the library at the dancer's present place and facing. Replaces a key that is too
-/// near. In a live dance the pose is set on a coming beat, or at `at`.
+/// Which keys made way for others; empty for none.
+export function noteOfWay(keys: Key[], gone: Key[]): string {
+  if (gone.length === 0) return '';
+  const names = (some: Key[]) => some.map(({ id }) => displayName(id)).join(' and ');
+  const isAt = ({ frame }: Key) => keys.some((key) => key.frame === frame);
+  const away = gone.every(isAt) ? '' : ` less than ${limits.tooNearS} s away`;
+  return `${names(keys)} ${keys.length === 1 ? 'stands' : 'stand'} in place of ${names(gone)}${away} now. Undo brings ${gone.length === 1 ? 'that' : 'those'} back.`;
+}
+
+/// Sets a pose of the library at the dancer's present place and facing. Removes keys that are too
+/// near; at the very frame of one it takes over how that is held and hit. In a live dance the pose is set on a coming beat, or at `at`.
 export function addKey(pose: LibraryPose, at?: number) {
   if (!project.value) return;
   if (live.value) return addLiveKey(pose, at ?? null);
   const wanted = at ?? Math.round(audio.currentTime * dancer.fps);
-  const old = keyNear(wanted);
-  const keys = project.value.keys.filter((key) => key !== old);
-  const frame = freeFrame(keys, old?.frame ?? wanted);
-  if (frame === null) return showError(new Error('There is no room for a key here.'));
+  const room = roomFor(project.value.keys, wanted);
+  if (!room) return showError(new Error('There is no room for a key here.'));
+  const { frame } = room;
+  const gone = replaced(frame);
+  const old = gone.find((key) => key.frame === frame);
+  const keys = project.value.keys.filter((key) => !gone.includes(key));
   const root = pose.pose!.rootPosition!;
   let placed: Pose = { root: [root.x, root.y, root.z], rotations: [...pose.pose!.rotations] };
   if (motion.value.count > frame) {
@@ -79,15 +90,14 @@ export function addKey(pose: LibraryPose, at?: number) {
   }
   const key = onPath(project.value.path, { id: freeId(keys, pose.id), frame, pose: placed, hasPlace: true, joints: null, hold: old?.hold ?? 0, hit: old?.hit ?? null, hands: old?.hands ?? 0 });
   selectedKey.value = key.id;
-  edit({ ...project.value, keys: sorted([...keys, key]) }, [frame]);
-  notifyOfHold(keys, key);
-  if (old) notify(`${displayName(key.id)} stands in place of ${displayName(old.id)} now. Undo brings that back.`);
+  edit({ ...project.value, keys: sorted([...keys, key]) }, [frame, ...gone.map((other) => other.frame)]);
+  notifyOf(noteOfHold(keys, key), noteOfWay([key], gone));
 }
 
-/// Reports that a hold ends early because a key follows within it.
-function notifyOfHold(others: Key[], key: Key) {
+/// Whose hold ends early because a key follows within it; empty for none.
+function noteOfHold(others: Key[], key: Key): string {
   const held = others.find((other) => isInHold(other, key.frame));
-  if (held) notify(`${displayName(held.id)} is held no longer than to ${limits.wayFromHoldS} s before ${displayName(key.id)}.`);
+  return held ? `${displayName(held.id)} is held no longer than to ${limits.wayFromHoldS} s before ${displayName(key.id)}.` : '';
 }
 
 export const keyOf = (id: string | null) => project.value?.keys.find((key) => key.id === id);
@@ -97,12 +107,13 @@ export function moveKey(id: string, to: number) {
   const key = keyOf(id);
   if (!key) return;
   const others = project.value.keys.filter((other) => other !== key);
-  const frame = freeFrame(others, to);
-  if (frame === null || frame === key.frame) return;
-  edit({ ...project.value, keys: sorted([...others, onPath(project.value.path, { ...key, frame })]) }, [key.frame, frame]);
-  notifyOfHold(others, { ...key, frame });
-  const near = others.find((other) => isTooNear(other.frame, frame));
-  if (near) notify(`${displayName(key.id)} stands ${(Math.abs(near.frame - frame) / dancer.fps).toFixed(2)} s from ${displayName(near.id)}: too near to be danced well.`);
+  const room = roomFor(others, to);
+  if (!room || room.frame === key.frame) return;
+  const { frame, gone } = room;
+  const stay = others.filter((other) => !gone.includes(other));
+  const moved = onPath(project.value.path, { ...key, frame });
+  edit({ ...project.value, keys: sorted([...stay, moved]) }, [key.frame, frame, ...gone.map((other) => other.frame)]);
+  notifyOf(noteOfHold(stay, moved), noteOfWay([moved], gone));
 }
 
 /// Sets for how many frames a key's pose is held, in whole steps. The program refuses poses that

@@ -15,13 +15,13 @@ export const seconds = () => studio.project.value?.seconds ?? 0;
 
 export const beatTimes = () => studio.beats.value.list.map(({ time }) => time);
 
-/// The frame of the nearest beat or marker, if one is near on the screen; not of the marker that is `moved`.
-export function snapped(time: number, moved?: Marker): number {
+/// The frame of the nearest beat, marker, or one of `others`, if one is near on the screen; not of the marker that is `moved`.
+export function snapped(time: number, moved?: Marker, others: number[] = []): number {
   const at = Math.min(Math.max(time, 0), seconds());
   let best = at;
   let away = snap / zoom.value;
   const marks = studio.project.value?.markers.filter((marker) => marker !== moved) ?? [];
-  for (const beat of [...marks.map(({ frame }) => frame / studio.dancer.fps), ...studio.suggested.value.map(({ time }) => time), ...beatTimes()]) {
+  for (const beat of [...[...marks.map(({ frame }) => frame), ...others].map((frame) => frame / studio.dancer.fps), ...studio.suggested.value.map(({ time }) => time), ...beatTimes()]) {
     if (Math.abs(beat - at) < away) [best, away] = [beat, Math.abs(beat - at)];
   }
   return Math.round(best * studio.dancer.fps);
@@ -30,7 +30,8 @@ export function snapped(time: number, moved?: Marker): number {
 export const timeUnder = (clientX: number) => (clientX - content.value!.getBoundingClientRect().left - edge) / zoom.value;
 
 /// The frame of a time under the pointer: that of a near beat or marker, unless it moves freely.
-export const frameAt = (time: number, isFree: boolean, moved?: Marker) => (isFree ? Math.max(0, Math.round(time * studio.dancer.fps)) : snapped(time, moved));
+export const frameAt = (time: number, isFree: boolean, moved?: Marker, others?: number[]) =>
+  (isFree ? Math.max(0, Math.round(time * studio.dancer.fps)) : snapped(time, moved, others));
 
 export const zoomTo = (pixels: number) => (zoom.value = Math.min(200, Math.max(8, pixels)));
 
@@ -49,10 +50,10 @@ export function stepped(frame: number, way: 1 | -1, byFrames: boolean): number {
   return (way > 0 ? frames.find((beat) => beat > frame) : frames.findLast((beat) => beat < frame)) ?? frame + 15 * way;
 }
 
-/// The frame at a point of the screen; null outside the timeline.
-export function frameUnder(clientX: number, clientY: number): number | null {
+/// The frame under the pointer, that of a near beat, marker or key unless it moves freely; null outside the timeline.
+export function frameUnder({ clientX, clientY, altKey }: PointerEvent): number | null {
   const box = content.value?.parentElement!.getBoundingClientRect();
   if (!box || !studio.project.value) return null;
   const inside = clientX >= box.left && clientX <= box.right && clientY >= box.top && clientY <= box.bottom;
-  return inside ? snapped(timeUnder(clientX)) : null;
+  return inside ? frameAt(timeUnder(clientX), altKey, undefined, studio.project.value.keys.map(({ frame }) => frame)) : null;
 }

@@ -139,7 +139,7 @@ function Warnings() {
 function KeyChip({ item, pictureOf }: { item: Key; pictureOf: (pose: Pose) => string }) {
   const { fps } = studio.dancer;
   const isSelected = studio.selectedKey.value === item.id;
-  const isReplaced = dropPose.value !== null && studio.keyNear(dropPose.value) === item;
+  const isReplaced = dropPose.value !== null && studio.replaced(dropPose.value).includes(item);
   const choose = () => {
     if (studio.live.value) return;
     studio.selectedKey.value = item.id;
