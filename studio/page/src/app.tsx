@@ -143,16 +143,19 @@ function Bar() {
   );
 }
 
-/// Whether Space plays while this element has the focus. On other buttons Space is a press; keys, intervals, markers and suggestions react to Enter.
-const playsOn = (at: HTMLElement) => !at.matches('button') || at.matches('.key, .interval, .marker, .suggested');
+/// The button that the pointer pressed, as long as it has the focus.
+let pressed: Element | null = null;
+/// Whether Space plays while this element has the focus. It presses buttons, but not one that the pointer has just pressed, like a pose; keys,
+/// intervals, markers and suggestions react to Enter.
+const playsOn = (at: HTMLElement) => !at.matches('button') || at === pressed || at.matches('.key, .interval, .marker, .suggested');
 
 function useKeyboard() {
   useEffect(() => {
     const press = (event: KeyboardEvent) => {
       const at = event.target as HTMLElement;
       const withControl = event.ctrlKey || event.metaKey;
-      // Sliders and boxes have no undo of their own.
-      const types = at.matches('input, select') && !(withControl && at.matches('[type=range], [type=checkbox]'));
+      // Sliders and boxes have no undo of their own, sliders no use for Space.
+      const types = at.matches('input, select') && !(withControl && at.matches('[type=range], [type=checkbox]')) && !(event.key === ' ' && at.matches('[type=range]'));
       if (event.defaultPrevented || types) return;
       const key = event.key.toLowerCase();
       if (event.repeat && 'tm'.includes(key)) return; // a key that is held is one tap, and one marker
@@ -180,12 +183,17 @@ function useKeyboard() {
       const at = event.target as HTMLElement;
       if (event.key === ' ' && at.matches('button') && playsOn(at)) event.preventDefault();
     };
-    window.addEventListener('keydown', press);
-    window.addEventListener('keyup', release);
-    return () => {
-      window.removeEventListener('keydown', press);
-      window.removeEventListener('keyup', release);
+    const point = ({ target }: Event) => (pressed = (target as Element).closest('button'));
+    const focus = ({ target }: Event) => {
+      if (target !== pressed) pressed = null;
     };
+    const listening = new AbortController();
+    const { signal } = listening;
+    window.addEventListener('keydown', press, { signal });
+    window.addEventListener('keyup', release, { signal });
+    window.addEventListener('pointerdown', point, { signal, capture: true });
+    window.addEventListener('focusin', focus, { signal });
+    return () => listening.abort();
   }, []);
 }
 

@@ -211,6 +211,33 @@ await inEachLook(async ({ page, until, settle, message, scale, frames, give, han
     await page.keyboard.press('Space');
   });
 
+  await check('Space plays while a slider has the focus, or a pose that was pressed; one reached by keyboard it sets', async () => {
+    const play = async () => {
+      await page.keyboard.press('Space');
+      await until(() => !window.choreo.audio.paused);
+      await page.keyboard.press('Space');
+      await until(() => window.choreo.audio.paused);
+    };
+    await page.getByLabel('energy').focus();
+    await play();
+    const before = await keys();
+    await seek(0.7);
+    await library.nth(2).click();
+    await settle();
+    const after = await keys();
+    assert.notDeepEqual(after, before);
+    await play();
+    await settle();
+    assert.deepEqual(await keys(), after, 'Space set it again');
+    for (const way of ['Tab', 'Shift+Tab']) await page.keyboard.press(way);
+    await page.keyboard.press('Space');
+    await settle();
+    assert.notDeepEqual(await keys(), after);
+    assert.equal(await isPlaying(), false);
+    await undo(2);
+    assert.deepEqual(await keys(), before);
+  });
+
   await check('the part of the wave that was played stays coloured at another scale', async () => {
     /// Waits for another wave than this one, a quarter of which was played.
     const isQuarterPlayed = (before) => until((before) => {
