@@ -97,15 +97,27 @@ type Plan = {
   signal: AbortSignal;
 };
 
+const { port1, port2 } = new MessageChannel();
+/// Lets the page react; a timer would wait 4 ms each time.
+const breathe = () => new Promise<unknown>((resolve) => {
+  port1.onmessage = resolve;
+  port2.postMessage(null);
+});
+
 /// Films a whole dance; returns the file's bytes.
 export async function film({ kind, motion, song, draw, progressed, signal }: Plan): Promise<Uint8Array> {
   const chosen = await chooseCodecs(kind);
   const seconds = motion.count / motion.fps;
   const { file, bytes } = makeFile(kind, chosen.picture.codec, song && chosen.sound.codec);
   let failure: unknown = null;
-  const error = (what: unknown) => (failure = what);
+  let wake = () => {};
+  const error = (what: unknown) => {
+    failure = what;
+    wake();
+  };
   const pictures = new VideoEncoder({ output: (chunk, about) => file.addVideoChunk(chunk, about), error });
   pictures.configure(chosen.picture);
+  pictures.ondequeue = () => wake();
   if (song) {
     const encoder = new AudioEncoder({ output: (chunk, about) => file.addAudioChunk(chunk, about), error });
     encoder.configure(chosen.sound);
@@ -118,9 +130,8 @@ export async function film({ kind, motion, song, draw, progressed, signal }: Pla
     pictures.encode(picture, { keyFrame: i % keyEvery === 0 });
     picture.close();
     progressed(i / count);
-    // Keeps the page responsive, and waits for the encoder.
-    do await new Promise((resolve) => setTimeout(resolve));
-    while (pictures.encodeQueueSize > mostWaiting && !failure);
+    await breathe();
+    while (pictures.encodeQueueSize > mostWaiting && !failure) await new Promise<void>((resolve) => (wake = resolve));
   }
   if (failure) throw failure;
   await pictures.flush();
