@@ -2,9 +2,9 @@
 import type { Clip } from '../generated/studio/studio_pb';
 import type { ModelInfo } from '../generated/choreo/v1/choreography_pb';
 import { Motion } from './motion';
+import type { Fault } from './motion';
 import { poseMessage, projectMessage } from './project_file';
 import type { Project } from './project';
-import type { Fault } from './state';
 import type { Wire } from './wire';
 
 /// Receives the progress of a dance.

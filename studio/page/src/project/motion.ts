@@ -7,6 +7,9 @@ import { ClipSchema } from '../generated/studio/studio_pb';
 import type { Clip } from '../generated/studio/studio_pb';
 import type { Frames } from '../generated/choreo/v1/motion_pb';
 
+/// What looks wrong from one frame to another, for people.
+export type Fault = { from: number; to: number; text: string };
+
 const pick = (from: Float32Array, width: number, first: number, end: number) =>
   from.slice(width * first, width * end);
 

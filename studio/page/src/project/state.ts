@@ -4,7 +4,7 @@ import type { Signal } from '@preact/signals';
 import type { Pose } from './body';
 import type { Watch } from './dancer';
 import type { Welcome, SongHeard } from '../generated/studio/studio_pb';
-import type { Motion } from './motion';
+import type { Fault, Motion } from './motion';
 import type { Project } from './project';
 
 /// Makes a moment's motion.
@@ -25,8 +25,6 @@ export type Moment = {
 };
 /// A possible problem, and its frame.
 export type Warning = { frame: number; text: string };
-/// What looks wrong from one frame to another, for people.
-export type Fault = { from: number; to: number; text: string };
 export type Song = { name: string; url: string; bytes: Uint8Array; analysis: SongHeard };
 /// A picture and its landmarks, 0 to 1 along its sides.
 export type Photo = { url: string; width: number; height: number; marks: { x: number; y: number; visibility: number }[] };

@@ -1,6 +1,6 @@
 // What looks wrong in the dance: marks on the timeline, and a list beside the stage. A press goes there.
 import { clock, x, zoom } from './scale';
-import type { Fault } from '../project/state';
+import type { Fault } from '../project/motion';
 import * as studio from '../session/studio';
 
 const goTo = ({ from }: Fault) => {
