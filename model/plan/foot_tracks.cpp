@@ -17,10 +17,9 @@ constexpr double kLandingShare = 0.5;  // a low foot slower than this share of i
 constexpr double kSmoothFrames = 1.5;  // smoothing of the centre of mass
 constexpr int kSmoothReach = 4;
 
-Eigen::Vector2d ZeroMomentPoint(const std::vector<Eigen::Vector3d>& centres, int frame,
-                                double fps) {
+Eigen::Vector2d ZeroMomentPoint(const std::vector<BodyCentre>& centres, int frame, double fps) {
   const auto centre = [&](int i) -> const Eigen::Vector3d& {
-    return centres[std::min(static_cast<size_t>(i + 1), centres.size() - 1)];
+    return centres[std::min(static_cast<size_t>(i + 2), centres.size() - 1)].smooth;
   };
   const Eigen::Vector3d& at = centre(frame);
   const Eigen::Vector3d acceleration =
@@ -44,7 +43,7 @@ bool Rests(const FootworkContext& context, int joint) {
 
 FootTrack Track(const FootworkContext& context, const Leg& leg, double toes_rest, double ankle_rest,
                 const std::vector<JointPlacement>& placements,
-                const std::vector<Eigen::Vector3d>& centres) {
+                const std::vector<BodyCentre>& centres) {
   const auto height = [&](const Eigen::Matrix3Xd& at) {
     return std::min(at(1, leg.toes) - toes_rest, at(1, leg.ankle) - ankle_rest);
   };
@@ -110,30 +109,35 @@ std::vector<Eigen::Vector2d> CarriersOf(const Skeleton& skeleton, const FeetAtRe
   return carriers;
 }
 
-std::vector<Eigen::Vector3d> CentresOfMass(const FootworkContext& context,
-                                           const std::vector<Pose>& plan) {
+std::vector<BodyCentre> CentresOfMass(const FootworkContext& context,
+                                      const std::vector<Pose>& plan) {
   const Eigen::VectorXd masses = MassWeights(context.skeleton);
-  std::vector<Eigen::Vector3d> exact, smooth;
+  std::vector<Eigen::Vector3d> exact;
   const auto add = [&](const Pose& pose) {
     exact.push_back(JointPositions(context.skeleton, pose) * masses);
   };
+  add(context.history.front());  // there are two frames before the plan then
   std::ranges::for_each(context.history, add);
   std::ranges::for_each(plan, add);
   const auto last = static_cast<int64_t>(exact.size()) - 1;
-  for (int64_t at = last - std::ssize(plan); at <= last; ++at) {
-    smooth.push_back(GaussianMean(
-        std::max<int64_t>(0, at - kSmoothReach), std::min(last, at + kSmoothReach), at,
-        kSmoothFrames, Eigen::Vector3d(Eigen::Vector3d::Zero()),
-        [&](int64_t i) -> const Eigen::Vector3d& { return exact[static_cast<size_t>(i)]; }));
+  const auto centre = [&](int64_t i) -> const Eigen::Vector3d& {
+    return exact[static_cast<size_t>(i)];
+  };
+  std::vector<BodyCentre> centres;
+  for (int64_t at = last - std::ssize(plan) - 1; at <= last; ++at) {
+    const int64_t from = std::max<int64_t>(1, at - kSmoothReach);
+    const int64_t to = std::min(last, at + kSmoothReach);
+    centres.push_back({centre(at), GaussianMean(from, to, at, kSmoothFrames,
+                                                Eigen::Vector3d(Eigen::Vector3d::Zero()), centre)});
   }
-  return smooth;
+  return centres;
 }
 
 std::array<FootTrack, 2> TrackFeet(const FootworkContext& context, const FeetAtRest& feet,
                                    const std::vector<Pose>& plan,
                                    const std::vector<JointPlacement>& placements,
                                    const std::vector<std::vector<Eigen::Vector2d>>& carriers,
-                                   const std::vector<Eigen::Vector3d>& centres) {
+                                   const std::vector<BodyCentre>& centres) {
   const auto track = [&](size_t side) {
     return Track(context, feet.legs[side], feet.toes_rest[side], feet.ankle_rest[side], placements,
                  centres);
@@ -145,7 +149,8 @@ std::array<FootTrack, 2> TrackFeet(const FootworkContext& context, const FeetAtR
       if (foot.carried.back()) foot.unbalanced[i] = 0;
     }
   }
-  LimitFalls(context, plan.back(), (centres[1] - centres[0]).y() * context.fps, &tracks);
+  LimitFalls(context, plan.back(), (centres[2].smooth - centres[1].smooth).y() * context.fps,
+             &tracks);
   return tracks;
 }
 

@@ -8,6 +8,7 @@
 #include "model/motion/kinematics/limb.h"
 #include "model/plan/contact_plan.h"
 #include "model/plan/footwork.h"
+#include "model/plan/pelvis_offset.h"
 
 /// Measures a plan's feet and balance before footwork. Pure functions.
 namespace choreo {
@@ -26,9 +27,9 @@ struct FeetAtRest {
 std::vector<Eigen::Vector2d> CarriersOf(const Skeleton& skeleton, const FeetAtRest& feet,
                                         const Eigen::Matrix3Xd& joints);
 
-/// The smoothed centre of mass, beginning with the frame before the plan's first.
-std::vector<Eigen::Vector3d> CentresOfMass(const FootworkContext& context,
-                                           const std::vector<Pose>& plan);
+/// The centre of mass, beginning with the two frames before the plan's first.
+std::vector<BodyCentre> CentresOfMass(const FootworkContext& context,
+                                      const std::vector<Pose>& plan);
 
 /// The tracks of both feet of a plan. `placements`: its joints' positions. `carriers`: its
 /// CarriersOf. `centres`: its CentresOfMass.
@@ -36,6 +37,6 @@ std::array<FootTrack, 2> TrackFeet(const FootworkContext& context, const FeetAtR
                                    const std::vector<Pose>& plan,
                                    const std::vector<JointPlacement>& placements,
                                    const std::vector<std::vector<Eigen::Vector2d>>& carriers,
-                                   const std::vector<Eigen::Vector3d>& centres);
+                                   const std::vector<BodyCentre>& centres);
 
 }  // namespace choreo

@@ -58,7 +58,9 @@ class PlanStander {
       // A held pose keeps its balance, because moving pelvis or feet away and back would look like
       // trembling.
       if (!context_.held)
-        offset_ = PelvisOffset(Supports(), centres_.front() - context_.offset_before.col(1),
+        offset_ = PelvisOffset(Supports(),
+                               {WithoutOffset(centres_[0], context_.offset_before.col(0)),
+                                WithoutOffset(centres_[1], context_.offset_before.col(1))},
                                {.returns = context_.keyed,
                                 .heights_alone = context_.has_path,
                                 .since_carried = SinceCarried(),
@@ -108,7 +110,7 @@ class PlanStander {
       hull.emplace_back(stance->place.x(), stance->place.z());
       hull.emplace_back(ankle.x(), ankle.z());
     }
-    const Eigen::Vector3d& centre = centres_[static_cast<size_t>(frame) + 1];
+    const Eigen::Vector3d& centre = centres_[static_cast<size_t>(frame) + 2].smooth;
     const Eigen::Vector2d point(centre.x(), centre.z());
     return -WayToHull(point, std::move(hull), context_.options.sole);
   }
@@ -198,12 +200,15 @@ class PlanStander {
     }
   }
 
+  static BodyCentre WithoutOffset(const BodyCentre& danced, const Eigen::Vector3d& offset) {
+    return {danced.exact - offset, danced.smooth - offset};
+  }
   std::vector<SupportFrame> Supports() const {
     std::vector<SupportFrame> supports(plan_.size());
     for (int frame = 0; frame < frames_; ++frame) {
       const auto i = static_cast<size_t>(frame);
       SupportFrame& support = supports[i];
-      support.centre = centres_[i + 1] - offset_.col(frame);
+      support.centre = WithoutOffset(centres_[i + 2], offset_.col(frame));
       support.support = carriers_[i];
       support.carried = !carriers_[i].empty();
       const Eigen::Matrix3Xd& at = planned_[i].positions;
@@ -330,7 +335,7 @@ class PlanStander {
   const int frames_;
   std::vector<JointPlacement> planned_;                 // the plan as proposed
   std::vector<std::vector<Eigen::Vector2d>> carriers_;  // by frame
-  std::vector<Eigen::Vector3d> centres_;
+  std::vector<BodyCentre> centres_;                     // from two frames before the first on
   std::array<std::vector<Stance>, 2> stances_;
   std::array<std::vector<Eigen::Vector3d>, 2> toes_;
   Eigen::Matrix3Xd offset_;  // of the pelvis

@@ -14,8 +14,8 @@ constexpr int kMostRounds = 12;
 constexpr double kPushSeconds =
     0.27;  // s before and after a flight in which legs may push as hard as gravity
 constexpr double kGive = 0.2;  // metres that a leap across a plan's end may leave it
-constexpr double kFirm =
-    30;  // weights of falling and of standing at the end, relative to per-frame terms
+// Weight of standing at the end, relative to per-frame terms, and of falling relative to that.
+constexpr double kFirm = 30;
 
 double Square(double value) { return value * value; }
 
@@ -60,10 +60,10 @@ class LeastSquares {
 
 class PelvisSolver {
  public:
-  PelvisSolver(const std::vector<SupportFrame>& frames, const Eigen::Vector3d& centre_before,
+  PelvisSolver(const std::vector<SupportFrame>& frames, const std::array<BodyCentre, 2>& before,
                const PelvisRules& rules)
       : frames_(frames),
-        centre_before_(centre_before),
+        before_(before),
         rules_(rules),
         count_(static_cast<int>(frames.size())),
         moved_(rules.returns ? count_ - 1 : count_),
@@ -94,6 +94,7 @@ class PelvisSolver {
     for (int round = 0; round < kMostRounds; ++round) {
       LeastSquares problem(3 * moved_);
       for (int frame = -1; frame < count_; ++frame) AddSmoothness(frame, &problem);
+      if (lands_) AddFall(-1, &problem);  // it flew there as it flies on
       for (int frame = 0; frame < moved_; ++frame) {
         for (int axis = 0; axis < 3; ++axis)
           problem.Add({{3 * frame + axis, 1}}, 0, 1 / Square(rules_.options.offset));
@@ -139,7 +140,8 @@ class PelvisSolver {
     if (first_borne_ == 0 || first_borne_ == count_ || Carried(-push_, 0)) return false;
     const int frames = first_borne_ + 1;
     const double planned = Planned(-1).y() - Planned(first_borne_).y();
-    const double fall = Fall(frames) - (Planned(0).y() - Planned(-1).y()) * frames;
+    const double speed = Centre(-1).exact.y() - Centre(-2).exact.y();
+    const double fall = Fall(frames) - speed * frames;
     return std::abs(fall - planned) < std::min(kGive, Fall(frames) / 2);
   }
   // Whether a flight to a key at the end rises as a leap would, and its arc stays near the plan.
@@ -159,8 +161,11 @@ class PelvisSolver {
     if (frame < 0) return rules_.before(axis, 2 + frame);
     return frame >= count_ ? 0 : offset_(axis, frame);
   }
-  // The plan's centre of mass, extrapolated beyond the end.
-  Eigen::Vector3d Planned(int frame) const { return frame < 0 ? centre_before_ : At(frame).centre; }
+  // The plan's centre of mass, from two frames before the first on.
+  const BodyCentre& Centre(int frame) const {
+    return frame < 0 ? before_[static_cast<size_t>(2 + frame)] : At(frame).centre;
+  }
+  const Eigen::Vector3d& Planned(int frame) const { return Centre(frame).smooth; }
   Eigen::Vector3d PlannedStep(int frame) const {
     return Planned(frame + 1) - 2 * Planned(frame) + Planned(frame - 1);
   }
@@ -176,11 +181,15 @@ class PelvisSolver {
     }
   }
 
+  // How far a leg's ankle is out of reach of its hip, moved by `offset`.
+  static double Beyond(const SupportFrame::Leg& leg, const Eigen::Vector3d& offset) {
+    return (leg.to_ankle - offset).norm() - kStraightestLeg * leg.length;
+  }
   // Moving the pelvis along the way to an ankle shortens it.
   void AddReach(int frame, LeastSquares* problem) const {
     for (const SupportFrame::Leg& leg : At(frame).legs) {
       const Eigen::Vector3d now = offset_.col(frame), way = leg.to_ankle - now;
-      const double beyond = way.norm() - kStraightestLeg * leg.length;
+      const double beyond = Beyond(leg, now);
       if (beyond <= 0) continue;
       const Eigen::Vector3d along = way.normalized();
       problem->Add(
@@ -190,9 +199,14 @@ class PelvisSolver {
   }
 
   void AddFall(int frame, LeastSquares* problem) const {
-    problem->Add({Term(frame - 1, 1, 1), Term(frame, 1, -2), Term(frame + 1, 1, 1)},
-                 -PlannedStep(frame).y() - kGravity * step_,
-                 kFirm / Square(rules_.options.acceleration * step_));
+    const Eigen::Vector3d planned =
+        Centre(frame + 1).exact - 2 * Centre(frame).exact + Centre(frame - 1).exact;
+    for (int axis = 0; axis < 3; ++axis) {
+      if (axis != 1 && rules_.heights_alone) continue;
+      const double wanted = axis == 1 ? -kGravity * step_ : 0;
+      problem->Add({Term(frame - 1, axis, 1), Term(frame, axis, -2), Term(frame + 1, axis, 1)},
+                   wanted - planned[axis], Square(kFirm / (rules_.options.acceleration * step_)));
+    }
   }
 
   // The acceleration of the offset, per frame squared.
@@ -247,7 +261,7 @@ class PelvisSolver {
   }
 
   const std::vector<SupportFrame>& frames_;
-  const Eigen::Vector3d& centre_before_;
+  const std::array<BodyCentre, 2>& before_;
   const PelvisRules& rules_;
   const int count_, moved_;
   const double step_;  // squared seconds between frames
@@ -263,8 +277,8 @@ class PelvisSolver {
 }  // namespace
 
 Eigen::Matrix3Xd PelvisOffset(const std::vector<SupportFrame>& frames,
-                              const Eigen::Vector3d& centre_before, const PelvisRules& rules) {
-  return PelvisSolver(frames, centre_before, rules).Solve();
+                              const std::array<BodyCentre, 2>& before, const PelvisRules& rules) {
+  return PelvisSolver(frames, before, rules).Solve();
 }
 
 }  // namespace choreo

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <limits>
 #include <vector>
 
@@ -12,6 +13,11 @@ namespace choreo {
 /// length.
 inline constexpr double kStraightestLeg = 0.985;
 
+/// A frame's centre of mass, metres.
+struct BodyCentre {
+  Eigen::Vector3d exact, smooth;  ///< falls; is balanced
+};
+
 /// One frame's requirements on the pelvis. Metres; the floor is y = 0.
 struct SupportFrame {
   /// For a standing foot: the vector from the hip to its ankle's target, and the leg's length.
@@ -22,7 +28,7 @@ struct SupportFrame {
   std::vector<Leg> legs;
   std::vector<Eigen::Vector2d> support;  ///< (x, z) of joints on the floor; empty: a flight
   bool carried = false;                  ///< whether other joints than the feet's are among them
-  Eigen::Vector3d centre;                ///< of mass, smoothed
+  BodyCentre centre;
 };
 
 /// Limits on the motion of the pelvis, which moves the whole body.
@@ -39,12 +45,13 @@ struct PelvisRules {
 
 /// Computes the pelvis's offset from the plan, [3, frames], metres. Minimises its squared
 /// acceleration and length, subject to three conditions: legs reach their feet; the centre of mass
-/// and the zero moment point stay over the feet; jumps fall at 9.81 m/s², from feet to feet, to a
-/// key in the air, or from the air to the feet. A body that rises from its knees, hands or seat, or
-/// goes down on them, does not jump. `centre_before`: the plan's centre of mass in the frame before
-/// the first. Hulls and legs are not linear, so rounds, at most 12, linearise again at their
-/// nearest points, until the pelvis moves by less than a tenth of FootworkOptions::reach. Pure.
+/// and the zero moment point stay over the feet; jumps fall at 9.81 m/s² and keep their horizontal
+/// velocity, from feet to feet, to a key in the air, or from the air to the feet. A body that rises
+/// from its knees, hands or seat, or goes down on them, does not jump. `before`: the plan's centre
+/// of mass in the two frames before the first, oldest first. Hulls and legs are not linear, so
+/// rounds, at most 12, linearise again at their nearest points, until the pelvis moves by less than
+/// a tenth of FootworkOptions::reach. Pure.
 Eigen::Matrix3Xd PelvisOffset(const std::vector<SupportFrame>& frames,
-                              const Eigen::Vector3d& centre_before, const PelvisRules& rules);
+                              const std::array<BodyCentre, 2>& before, const PelvisRules& rules);
 
 }  // namespace choreo
