@@ -1,5 +1,6 @@
 #include "client/cli/options/misspelling.h"
 
+#include "model/core/joined.h"
 #include "model/core/text/nearest.h"
 
 namespace choreo::cli {
@@ -7,10 +8,12 @@ namespace {
 
 std::string DescribeCommand(const CLI::App& program, const std::string& word) {
   Nearest command(word);
-  for (const CLI::App* known : program.get_subcommands([](const CLI::App*) { return true; }))
-    command.Offer(known->get_name());
+  const auto known = program.get_subcommands([](const CLI::App*) { return true; });
+  for (const CLI::App* one : known) command.Offer(one->get_name());
+  const auto name = [](const CLI::App* one) { return one->get_name(); };
   return word + " is not a command; " +
-         (command.nearest().empty() ? "see --help" : "did you mean " + command.nearest() + "?");
+         (command.nearest().empty() ? "there are " + Joined(known, name)
+                                    : "did you mean " + command.nearest() + "?");
 }
 
 }  // namespace
