@@ -113,6 +113,7 @@ test('a fault in one of several requests is told with its index', () =>
 test('one request is not a list', async () => {
   const client = new ChoreoClient(process.env.CHOREO_SERVER);
   await assert.rejects(client.streamDance({ config: {} }).next(), { message: 'requests: is one object: put it in a list, [{ config }, ...]' });
+  await assert.rejects(client.streamDance(Promise.resolve([{ config: {} }])).next(), { message: 'requests: is a Promise: await it first' });
   client.close();
 });
 

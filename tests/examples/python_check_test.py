@@ -251,7 +251,14 @@ print(api_implementation.Type())
             self.assertTrue(self.client.info(timeout).models)
         self.assert_refused("retry_s: 1000.* is not a finite number >= 0$", lambda: Client("127.0.0.1:1", retry_s=10**400))
         Client("127.0.0.1:1", connect_timeout_s=1e300).close()
-        self.assert_refused("addresses: None is neither HOST:PORT nor", Client, None)
+        for addresses in (None, b"one:50051"):
+            self.assert_refused("addresses: .* is neither HOST:PORT nor", Client, addresses)
+
+    def test_a_stream_of_what_is_no_call_is_refused(self):
+        async def read():
+            return [answer async for answer in aio.stream(None)]
+
+        self.assert_refused("answers: None is not what stream_dance or generate_transition returns$", lambda: asyncio.run(read()))
 
     def test_the_page_s_program_for_asyncio_dances_and_can_be_cancelled(self):
         page = pathlib.Path(__file__).resolve().parents[2] / "client/python/README.md"

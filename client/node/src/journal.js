@@ -1,5 +1,6 @@
 // Stores all requests of a dance, in order, to repeat them to another server: a dance resumes from the last continuation and the same messages.
 // Discards only music that is no longer needed.
+import { types } from 'node:util';
 import { checked, requireKind, requireSendable } from './check.js';
 import { invalid } from './error.js';
 import { RefusedKeys, requireKey } from './refused_keys.js';
@@ -23,6 +24,7 @@ export class Journal {
   constructor(requests) {
     const begin = requests?.[Symbol.asyncIterator] ?? requests?.[Symbol.iterator];
     const isOne = typeof requests === 'object' && requests !== null && !begin;
+    if (types.isPromise(requests)) throw invalid('requests', 'is a Promise: await it first');
     if (isOne) throw invalid('requests', 'is one object: put it in a list, [{ config }, ...]');
     if (typeof requests !== 'object' || !begin) throw invalid('requests', `${quoted(requests)} is not an iterable of messages`);
     this.#source = begin.call(requests);

@@ -64,7 +64,7 @@ class Client:
     `options`: those of Options."""
 
     def __init__(self, addresses: typing.Union[str, typing.Iterable[str]], **options: typing.Any) -> None:
-        if not hasattr(addresses, "__iter__"):
+        if not hasattr(addresses, "__iter__") or isinstance(addresses, (bytes, bytearray)):
             raise invalid("addresses", f"{addresses!r} is neither HOST:PORT nor a list of them")
         self._replicas = Replicas([addresses] if isinstance(addresses, str) else list(addresses), options_of(options))
 
