@@ -94,9 +94,12 @@ test('poses have names and tags', () => {
   for (const { id, description, tags, rotations } of poses()) assert.ok(description && tags.length > 0 && rotations.length === 24, id);
 });
 
-test('a key that is set into a hold ends it', () => {
+test('a key that is set into a hold ends it, and a warning says so', (t) => {
+  const warn = t.mock.method(console, 'warn', () => {});
   const keys = readKeys({ keyframes: [{ time: 1, pose: 'stand', hold: 2 }, { time: 2.5, pose: 'dab' }] }, skeleton);
   assert.deepEqual(keys.map(({ keyframe: { time } }) => rounded(time)), [1, 1.2, 1.4, 1.6, 1.8, 2, 2.5]);
+  const said = warn.mock.calls.map(({ arguments: [text] }) => text);
+  assert.deepEqual(said, ['warning: key "key1": it is held up to 2 s, not 3 s: the key "key2" comes at 2.5 s']);
 });
 
 test('keys come in order', () => {

@@ -61,9 +61,11 @@ class KeysTest(unittest.TestCase):
         self.assertEqual(names, sorted(file.stem for file in (ROOT / "client/poses").glob("*.json")))
         self.assertTrue(all(one.description and one.tags and len(one.rotations) == 24 for one in poses()))
 
-    def test_a_key_set_into_a_hold_ends_it(self):
+    def test_a_key_set_into_a_hold_ends_it_and_a_warning_says_so(self):
         keys = [{"time": 1, "pose": "stand", "hold": 2}, {"time": 2.5, "pose": "dab"}]
-        times = [request["keyframe"]["time"] for request in read_keys({"keyframes": keys}, self.skeleton)]
+        with self.assertWarnsRegex(UserWarning, '^key "key1": it is held up to 2 s, not 3 s: the key "key2" comes at 2.5 s$'):
+            read = read_keys({"keyframes": keys}, self.skeleton)
+        times = [request["keyframe"]["time"] for request in read]
         self.assertEqual([round(time, 6) for time in times], [1, 1.2, 1.4, 1.6, 1.8, 2, 2.5])
 
     def test_what_is_no_file_and_no_skeleton_is_named(self):

@@ -179,6 +179,7 @@ export function libraryPose(name: string, skeleton: Skeleton, where?: { place?: 
  * Reads the keys of a key file, given as its text or as the result of JSON.parse, as requests for streamDance. A held key becomes several keys. A
  * key without an id is called by its place in the file, from 1: "key2". The keys are in order of time, unless some have a time and others a frame.
  * Times must be in seconds: counts of a song ("9c") require its beats, which only the `choreo` program finds. Poses in numbers must be `rotations`.
- * Throws ChoreoError. Warns on the console about a jump without a place, which is danced standing on the floor.
+ * Throws ChoreoError. Warns on the console about a jump without a place, which is danced standing on the floor, and about a hold that a key within
+ * it ends half a second before itself.
  */
 export function readKeys(file: string | Uint8Array | object, skeleton: Skeleton): { keyframe: Keyframe }[];

@@ -39,8 +39,8 @@ export function readAndWarn(file, skeleton, warn) {
     if (ids.has(id)) throw invalid(`keyframes[${at}].id`, `"${id}" is already the id of an earlier key`);
     ids.add(id);
   });
-  const starts = read.flatMap(({ key }) => key.time ?? []).sort((a, b) => a - b);
-  const timed = read.flatMap(({ key, hold }, at) => [key, ...held(key, hold, starts, `keyframes[${at}].hold`)]);
+  const starts = read.flatMap(({ key }) => (key.time === undefined ? [] : key)).sort((a, b) => a.time - b.time);
+  const timed = read.flatMap(({ key, hold }, at) => [key, ...held(key, hold, starts, `keyframes[${at}].hold`, warn)]);
   for (const when of ['time', 'frame']) if (timed.every((key) => when in key)) timed.sort((a, b) => a[when] - b[when]);
   return timed.map((keyframe) => ({ keyframe }));
 }
@@ -147,8 +147,14 @@ function placed({ rotations: [pelvis, ...others], root }, at, facing) {
   return { rotations: [turn === 0 ? pelvis : times([0, turn, 0], pelvis), ...others], root: at ? [at[0], root[1], at[1]] : root };
 }
 
-/** Returns the keys that hold this one. Sets the key's hit unless it has one. */
-function held(key, hold, starts, field) {
+/** Says that a hold ends at `now`, and not at `was`, because of the key `id` at `at` seconds. */
+export function heldUpTo(now, was, id, at) {
+  const [to, planned, then] = [now, was, at].map((seconds) => `${Math.round(100 * seconds) / 100} s`);
+  return `it is held up to ${to}, not ${planned}: the key "${id}" comes at ${then}`;
+}
+
+/** Returns the keys that hold this one. Sets the key's hit unless it has one. Warns where another key ends the hold. */
+function held(key, hold, starts, field, warn) {
   if (hold === undefined) return [];
   number(hold, field);
   if (key.time === undefined) throw invalid(field, 'goes with time');
@@ -156,9 +162,13 @@ function held(key, hold, starts, field) {
   const { hit, ...other } = key;
   key.hit = hit ?? usualHit;
   const steps = Math.max(1, Math.floor(hold / holdStep + 1e-9));
-  const after = starts.find((start) => start > key.time) ?? Infinity;
-  const last = after > key.time + hold ? Infinity : after - wayFromHold; // leaves time to reach a key within the hold
-  return Array.from({ length: steps }, (_, at) => ({ ...other, id: `${key.id} held ${at + 1}`, time: key.time + (hold * (at + 1)) / steps })).filter(({ time }) => time <= last);
+  const after = starts.find(({ time }) => time > key.time);
+  const end = key.time + hold;
+  const last = after?.time <= end ? after.time - wayFromHold : Infinity; // leaves time to reach a key within the hold
+  const holding = Array.from({ length: steps }, (_, at) => ({ ...other, id: `${key.id} held ${at + 1}`, time: key.time + (hold * (at + 1)) / steps }));
+  const kept = holding.filter(({ time }) => time <= last);
+  if (kept.length < steps) warn(key.id, heldUpTo(kept.at(-1)?.time ?? key.time, end, after.id, after.time));
+  return kept;
 }
 
 const ascending = (numbers) => [...new Set(numbers)].sort((a, b) => a - b);

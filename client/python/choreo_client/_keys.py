@@ -35,7 +35,8 @@ def read_keys(file: typing.Union[str, bytes, typing.Mapping[str, typing.Any]], s
     """Reads the keys of a key file, given as its text or as parsed JSON, as requests for stream_dance: [{"keyframe": ...}, ...]. A held key
     becomes several keys. A key without an id is called by its place in the file, from 1: "key2". The keys are in order of time, unless some have
     a time and others a frame. Times must be in seconds: counts of a song ("9c") require its beats, which only the `choreo` program finds. Poses
-    in numbers must be `rotations`. Raises ChoreoError. Warns about a jump without a place, which is danced standing on the floor."""
+    in numbers must be `rotations`. Raises ChoreoError. Warns about a jump without a place, which is danced standing on the floor, and
+    about a hold that a key within it ends half a second before itself."""
     require_skeleton(skeleton)
     content = _parsed(file) if isinstance(file, (str, bytes, os.PathLike)) else file
     keys = content.get("keyframes") if isinstance(content, typing.Mapping) else None
@@ -51,7 +52,7 @@ def read_keys(file: typing.Union[str, bytes, typing.Mapping[str, typing.Any]], s
         ids.add(key["id"])
         if lost_jump and _sets_feet(key.get("mask"), skeleton):
             warnings.warn(f'key "{key["id"]}": {lost_jump}', stacklevel=2)
-    starts = sorted(key["time"] for key, *_ in read if "time" in key)
+    starts = sorted((key["time"], key["id"]) for key, *_ in read if "time" in key)
     timed = []
     for at, (key, hold, _) in enumerate(read):
         timed += [key, *_held(key, hold, starts, f"keyframes[{at}].hold")]
@@ -194,7 +195,7 @@ def _sets_feet(mask, skeleton):
 
 
 def _held(key, hold, starts, field):
-    """Returns the keys that hold this one. Sets the key's hit unless it has one."""
+    """Returns the keys that hold this one. Sets the key's hit unless it has one. Warns where another key ends the hold."""
     if hold is None:
         return
     if "time" not in key:
@@ -204,12 +205,18 @@ def _held(key, hold, starts, field):
     held = {name: value for name, value in key.items() if name != "hit"}
     key.setdefault("hit", _USUAL_HIT)
     steps = max(1, math.floor(hold / _HOLD_STEP + 1e-9))
-    after = next((start for start in starts if start > key["time"]), math.inf)
-    last = math.inf if after > key["time"] + hold else after - _WAY_FROM_HOLD  # leaves time to reach a key within the hold
+    end = key["time"] + hold
+    after, after_id = next((start for start in starts if start[0] > key["time"]), (math.inf, ""))
+    last = math.inf if after > end else after - _WAY_FROM_HOLD  # leaves time to reach a key within the hold
+    now = key["time"]
     for step in range(1, steps + 1):
         time = key["time"] + hold * step / steps
         if time <= last:
+            now = time
             yield {**held, "id": f"{key['id']} held {step}", "time": time}
+    if after <= end:
+        cut = f'it is held up to {round(now, 2):g} s, not {round(end, 2):g} s: the key "{after_id}" comes at {round(after, 2):g} s'
+        warnings.warn(f'key "{key["id"]}": {cut}', stacklevel=3)
 
 
 def _number(value, field):
