@@ -1,5 +1,6 @@
 // For pages: a dance of serveDance() in choreo-client/serve, while it is made. Without any dependency; it works in Node.js, too.
 import type { Character, Shown, Smpl } from '../character/index.js';
+import type { Exactly } from './exactly.js';
 
 /** Describes the dance when it begins. */
 export interface DanceHeader {
@@ -26,6 +27,9 @@ export interface KeyNews {
 }
 
 /**
+/** A key, and when it is to be reached. */
+export type KeyRequest = KeyPose & { id?: string; time?: number };
+
  * What goes wrong, with the HTTP `status` of a back end that refuses (such as 401), or a `code` of gRPC: UNAVAILABLE where no connection is had,
  * NOT_FOUND for a dance that the back end has forgotten, FAILED_PRECONDITION for a key after the end, CANCELLED after close().
  */
@@ -80,7 +84,8 @@ export interface PageDance {
    * Requests a key, at `soon()` if it has no time, and resolves to the request. The same id again moves the key. Rejects with a DanceError for what is
    * no key, or is after the dance's end. A key that comes too late reaches onKey as refused.
    */
-  setKey<K extends KeyPose & { id?: string; time?: number }>(key: K): Promise<K & { id: string; time: number }>;
+  setKey<K extends KeyRequest>(key: K & Exactly<K, KeyRequest>): Promise<K & { id: string; time: number }>;
+  /** Takes a key back, with its hold; once it is reached, the rest of its hold. */
   removeKey(id: string): Promise<void>;
   /** Leaves the dance, which ends on its servers, too. */
   close(): void;

@@ -1,5 +1,6 @@
 // For back ends: dances for web pages, over HTTP, as server-sent events. `connectDance` of choreo-client/page reads them.
 import type { IncomingMessage, ServerResponse } from 'node:http';
+import type { Http2ServerRequest, Http2ServerResponse } from 'node:http2';
 import type { ChoreoClient, ChoreoError, Continuation, DanceConfig, Resumed, StreamDanceRequest } from '../src/index.js';
 
 /** What to dance. */
@@ -56,7 +57,7 @@ export interface DanceHandler {
    *   from its first frame on.
    * - `GET /dance/skeleton`: the body that dances.
    */
-  (request: IncomingMessage & { body?: unknown }, response: ServerResponse): Promise<boolean>;
+  (request: (IncomingMessage | Http2ServerRequest) & { body?: unknown }, response: ServerResponse | Http2ServerResponse): Promise<boolean>;
   /** Ends all its dances. */
   close(): void;
 }

@@ -1,3 +1,4 @@
+import type { Exactly, Known, Of, Used } from '../page/exactly.js';
 import type { GenerateTransitionRequest, GenerateTransitionResponse, GetServerInfoResponse as ServerInfo } from '../types/messages.js';
 import type { Keyframe, KeyframeRejected, Pose, Skeleton, StreamDanceRequest, StreamDanceResponse } from '../types/messages.js';
 
@@ -5,27 +6,8 @@ import type { Keyframe, KeyframeRejected, Pose, Skeleton, StreamDanceRequest, St
 // received message has all of them, except that of alternatives (a oneof) it has one: the compiler knows which after
 // `if (answer.response === 'frames')` or `if (answer.frames)`. Integers of 64 bits are received as strings.
 export * from '../types/messages.js';
+export type { Exactly } from '../page/exactly.js';
 export type { GetServerInfoResponse as ServerInfo } from '../types/messages.js';
-
-type Plain = string | number | bigint | boolean | symbol | null | undefined | ArrayBuffer | ArrayBufferView | readonly unknown[] | { low: number; high: number };
-type Known<S> = S extends unknown ? keyof S : never;
-type Used<T> = { [K in keyof T]-?: [NonNullable<T[K]>] extends [never] ? never : K }[keyof T];
-/** The alternatives in `S` that have all fields used in `T`. */
-type Fitting<T, S> = S extends unknown ? (Used<T> extends Used<S> ? S : never) : never;
-type Of<S, K extends PropertyKey> = S extends unknown ? (K extends keyof S ? NonNullable<S[K]> : never) : never;
-/** `K` if one of the alternatives `S` lacks it, otherwise never. */
-type Lacking<S, K> = S extends unknown ? (K extends Used<S> ? never : K) : never;
-/** The type, which doubles as an error message, of a field that does not fit. */
-type Misfit<S, K> = K extends Known<S> ? ([Lacking<S, K>] extends [never] ? unknown : 'another field of this message excludes this one') : `there is no field ${K & string}`;
-/**
- * A message of type `S` with the fields of `T`. Fields that `S` lacks, or that exclude each other, have a type that states the error. It is needed
- * because the compiler checks for such fields only in literals, and not in the values that a generator yields.
- */
-export type Exactly<T, S> = T extends Plain
-  ? T
-  : [Fitting<T, S>] extends [never]
-    ? { [K in keyof T]: Misfit<S, K> }
-    : { [K in keyof T]: Exactly<T[K], Of<Fitting<T, S>, K>> };
 
 /** The fields of a StreamDanceRequest, of which it has exactly one. */
 export interface OneRequest extends Fields<StreamDanceRequest> {}
