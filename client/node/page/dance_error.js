@@ -18,6 +18,6 @@ export class DanceError extends Error {
 
   /** An error as this one: a lost connection, unless it is one already. */
   static of(error) {
-    return error instanceof DanceError ? error : new DanceError(error.message, { code: 'UNAVAILABLE', cause: error });
+    return error instanceof DanceError ? error : new DanceError(`${error?.message ?? error}`, { code: 'UNAVAILABLE', cause: error });
   }
 }

@@ -38,7 +38,7 @@ export async function* eventsOf(url, { headers, signal, patience, onLost, fetch 
       signal.throwIfAborted();
       // A dance that has not begun is not requested twice.
       if (error.status || last === undefined) throw error;
-      if (since === undefined) onLost?.(DanceError.of(error));
+      if (since === undefined) onLost(DanceError.of(error));
       since ??= Date.now();
       if (Date.now() - since > 1000 * patience) throw error;
     } finally {

@@ -13,23 +13,24 @@ export interface DanceHeader {
 
 /**
  * A library pose by name, or rotation vectors of some joints, [x, y, z] in radians. Without a `place` it is taken wherever the dancer is, a jump
- * standing; 'here' is where she is when the key arrives.
+ * standing; 'here' is where she is when the key arrives. A pose that is held for `hold` seconds, within the dance, is one key until its end; a key
+ * within a hold ends it half a second before itself, and onWarning says so.
  */
 export type KeyPose =
   | { pose: string; rotations?: undefined; place?: [number, number] | 'here'; facing?: number; hold?: number; hit?: number }
   | { rotations: Record<string, [number, number, number]>; pose?: undefined };
 
-/** A key was reached at `time`, or is not danced for the reason `refused`. */
+/** A key was reached at `time`, or what was asked for is not done for the reason `refused`: a key that was to move stands where it was. */
 export interface KeyNews {
   id: string;
   time?: number;
   refused?: string;
 }
 
-/**
 /** A key, and when it is to be reached. */
 export type KeyRequest = KeyPose & { id?: string; time?: number };
 
+/**
  * What goes wrong, with the HTTP `status` of a back end that refuses (such as 401), or a `code` of gRPC: UNAVAILABLE where no connection is had,
  * NOT_FOUND for a dance that the back end has forgotten, FAILED_PRECONDITION for a key after the end, CANCELLED after close().
  */
@@ -48,6 +49,7 @@ export interface ConnectOptions {
   patience?: number;
   /** Instead of the page's own. */
   fetch?: typeof fetch;
+  // What these throw the page's console hears of; the dance goes on.
   onKey?: (news: KeyNews) => void;
   /** A key is not danced as it looks: a jump without a `place`, say, stands on the floor. */
   onWarning?: (warning: { id?: string; message: string }) => void;
@@ -81,8 +83,8 @@ export interface PageDance {
   /** The earliest time for a new key: not settled, and a second from this page's keys that are still to come. */
   soon(): number;
   /**
-   * Requests a key, at `soon()` if it has no time, and resolves to the request. The same id again moves the key. Rejects with a DanceError for what is
-   * no key, or is after the dance's end. A key that comes too late reaches onKey as refused.
+   * Requests a key, at `soon()` if it has no time, and resolves to the request. The same id again moves the key, with its hold. Rejects with a
+   * DanceError for what is no key, or is after the dance's end. A key that comes too late reaches onKey as refused. undefined is as good as left out.
    */
   setKey<K extends KeyRequest>(key: K & Exactly<K, KeyRequest>): Promise<K & { id: string; time: number }>;
   /** Takes a key back, with its hold; once it is reached, the rest of its hold. */

@@ -4,6 +4,8 @@ import { Player, smplPoses } from '../character/index.js';
 import { Clock } from './clock.js';
 import { DanceError } from './dance_error.js';
 import { eventsOf } from './events.js';
+import { isolated } from './isolated.js';
+import { addressOf, givenOf, textOf } from './key_request.js';
 import { PendingKeys } from './pending_keys.js';
 import { ToldClock } from './told_clock.js';
 
@@ -11,7 +13,8 @@ const before = 0.7; // seconds of poses needed before the music continues
 const soonest = 2; // the least seconds from a request to its key: the back end settles one ahead, and the dancer needs time to get there
 const beyond = 1.2; // seconds after the newest frame: earlier ones are settled
 const kept = 1; // seconds of the past, for another character
-const names = ['headers', 'patience', 'fetch', 'onKey', 'onWarning', 'onMoved', 'onLost', 'onEnd'];
+const callbacks = ['onKey', 'onWarning', 'onMoved', 'onLost', 'onEnd'];
+const names = ['headers', 'patience', 'fetch', ...callbacks];
 
 export { DanceError };
 
@@ -19,9 +22,6 @@ export function connectDance(url, options = {}) {
   requireOptions(options, names);
   return new PageDance(url, options);
 }
-
-/** JSON would make null of NaN. */
-const shown = (_, value) => (typeof value === 'number' && !Number.isFinite(value) ? String(value) : value);
 
 class PageDance {
   begun;
@@ -42,7 +42,7 @@ class PageDance {
 
   constructor(url, options) {
     this.#url = String(url);
-    this.#options = { patience: 10, ...options };
+    this.#options = { patience: 10, ...options, ...Object.fromEntries(callbacks.map((name) => [name, isolated(options[name])])) };
     this.begun = new Promise((resolve, reject) => this.#listen(resolve, reject));
     this.begun.catch(() => {}); // onEnd hears of it, too
   }
@@ -77,7 +77,7 @@ class PageDance {
     }
     if (this.#holds && this.#worn && (shown.ahead > before || this.over)) {
       this.#holds = false;
-      if (!audio.ended) Promise.resolve(audio.play()).catch((error) => this.#options.onWarning?.({ message: error.message }));
+      if (!audio.ended) Promise.resolve(audio.play()).catch((error) => this.#options.onWarning({ message: error.message }));
     }
     if (this.#header && !this.over) this.#told.follow(audio);
     return shown;
@@ -99,25 +99,24 @@ class PageDance {
   }
 
   async setKey(key) {
-    if (typeof key !== 'object' || key === null || Array.isArray(key)) {
-      throw new DanceError(`key: ${key === null ? 'null' : typeof key} is neither {pose} nor {rotations}`, { status: 400, code: 'INVALID_ARGUMENT' });
-    }
-    const said = { id: this.#pending.newId(), time: this.soon(), ...key };
-    this.#pending.add(said);
-    try {
-      await this.#send('POST', '/keys', JSON.stringify(said, shown));
-    } catch (error) {
-      this.#pending.delete(said.id);
-      throw error;
-    }
+    const given = givenOf(key);
+    const said = { id: this.#pending.newId(), time: this.soon(), ...given };
+    const text = textOf(said);
+    await this.#ask(this.#pending.add(said), this.#send('POST', '/keys', text));
     return said;
   }
 
   async removeKey(id) {
-    // No key has such an id, nor any address.
-    if (/\p{Surrogate}/u.test(id)) throw new DanceError('id: has half a character, a surrogate without its pair', { status: 400, code: 'INVALID_ARGUMENT' });
-    await this.#send('DELETE', `/keys/${encodeURIComponent(id)}`);
-    this.#pending.delete(id);
+    const address = addressOf(id);
+    await this.#ask(this.#pending.remove(id), this.#send('DELETE', address));
+  }
+
+  /** Calls `undo` if `sent` fails: what was asked for before it stands. */
+  #ask(undo, sent) {
+    return sent.catch((error) => {
+      undo();
+      throw error;
+    });
   }
 
   async #send(method, path, body) {
@@ -139,9 +138,9 @@ class PageDance {
       for await (const [event, data] of eventsOf(this.#url, { ...this.#options, signal: this.#stop.signal })) {
         if (event === 'dance') this.#begin(data, begin);
         else if (event === 'frames') this.#take(data);
-        else if (event === 'key') (this.#pending.delete(data.id), onKey?.(data));
-        else if (event === 'warning') onWarning?.(data);
-        else if (event === 'moved') onMoved?.(data);
+        else if (event === 'key') (this.#settle(data), onKey(data));
+        else if (event === 'warning') onWarning(data);
+        else if (event === 'moved') onMoved(data);
         else if (event === 'failed') throw new DanceError(data.message, { code: data.code, retryAfter: data.retry_after });
         else if (event === 'over') this.over = true;
         if (this.over) break;
@@ -154,7 +153,12 @@ class PageDance {
     this.#told.stop();
     this.#worn?.end();
     if (failure) fail(failure);
-    if (!this.#stop.signal.aborted) onEnd?.(failure);
+    if (!this.#stop.signal.aborted) onEnd(failure);
+  }
+
+  #settle({ id, time, refused }) {
+    if (refused === undefined) this.#pending.reach(id, time);
+    else this.#pending.refuse(id);
   }
 
   #begin(header, begin) {

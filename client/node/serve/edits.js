@@ -32,6 +32,7 @@ function requireId(id) {
   if (bytes === undefined) throw invalid('id', `${quoted(id)} is not a text`);
   if (!(bytes >= 1 && bytes <= mostBytesOfId)) throw invalid('id', `has ${bytes} bytes, not 1 to ${mostBytesOfId}`);
   requireWellFormed(id, 'id');
+  if (id === '.' || id === '..') throw invalid('id', `"${id}" means a folder in an address, such as that at which a key is taken back`);
 }
 
 function requireTime(time) {

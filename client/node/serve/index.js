@@ -152,10 +152,14 @@ class DanceServer {
 async function bodyOf(request) {
   if (request.body !== undefined) return request.body;
   let [text, length] = ['', 0];
-  for await (const piece of request.setEncoding('utf8')) {
-    length += piece.length;
-    if (length <= mostBytes) text += piece;
-    if (length > mostRead) break; // this closes the connection
+  try {
+    for await (const piece of request.setEncoding('utf8')) {
+      length += piece.length;
+      if (length <= mostBytes) text += piece;
+      if (length > mostRead) break; // this closes the connection
+    }
+  } catch (error) {
+    throw new Refusal(400, error.message); // the page is gone: nobody hears it
   }
   if (length > mostBytes) throw new Refusal(413, `more than ${mostBytes} characters`);
   try {

@@ -23,7 +23,10 @@ const mostSeconds = 3600; // of a dance: 108 000 frames
 /** Throws ChoreoError, which names the field, for an invalid order. */
 export function requireOrder(order) {
   if (!isObject(order)) throw invalid('order', `${quoted(order)} is not {${names.join(', ')}}`);
-  for (const name of Object.keys(order)) if (!names.includes(name)) throw invalid(name, `no field of an order; ${hint(name, names)}`);
+  for (const [name, value] of Object.entries(order)) {
+    if (!names.includes(name)) throw invalid(name, `no field of an order; ${hint(name, names)}`);
+    if (value === null) throw invalid(name, 'is null; leave it out');
+  }
   requirePositive('seconds', order.seconds);
   if (order.seconds > mostSeconds) throw invalid('seconds', `${order.seconds} s is more than an hour, ${mostSeconds} s`);
   requirePositive('speed', order.speed ?? 1);

@@ -18,11 +18,11 @@ const ofServers = 'config.continuation.fingerprint';
  * token that the server refuses, are the back end's: INTERNAL, without details. Errors with a `status` are the back end's own words for pages.
  */
 export function refusalOf(error) {
-  if (error.status >= 400 && error.status < 600) return error;
-  const { code, message, retryAfter } = error;
+  const { status, code, message, retryAfter, violations } = Object(error); // anything may be thrown
+  if (Number.isInteger(status) && status >= 400 && status < 600) return error;
   if (error instanceof URIError) return new Refusal(400, message);
   if (code === 'RESOURCE_EXHAUSTED' || code === 'UNAVAILABLE') return new Refusal(503, 'no server is free now; try again', code, retryAfter);
-  const [fault] = error.violations ?? [];
+  const [fault] = violations ?? [];
   // Without the number of the back end's request.
   if (fault && fault.field !== ofServers && !isOfOptions(error)) return new Refusal(400, `${fault.field}: ${fault.description}`, code);
   return new Refusal(500, 'this went wrong here', 'INTERNAL');

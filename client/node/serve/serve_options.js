@@ -1,4 +1,5 @@
 // Checks what serveDance() is given. For the options see index.d.ts.
+import { isolated } from '../page/isolated.js';
 import { invalid } from '../src/error.js';
 import { hint, quoted } from '../src/words.js';
 
@@ -38,5 +39,6 @@ export function checkServe(client, begin, given) {
     checks[name](name, value);
     options[name] = value;
   }
+  for (const name of ['onContinuation', 'onResume', 'onFailed']) options[name] = isolated(options[name]);
   return options;
 }
