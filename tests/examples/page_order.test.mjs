@@ -1,6 +1,7 @@
 // client/node/serve: what a back end may order, and what its page hears of it. $CHOREO_SERVER names a choreod.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
+import { setTimeout as sleep } from 'node:timers/promises';
 import { serveDance } from '../../client/node/serve/index.js';
 import { withBackEnd } from './back_end.mjs';
 
@@ -66,3 +67,20 @@ test("a page hears the code and the field of what is wrong in its dance, and no 
   const heard = Object.values(wrong).map(([, code, message]) => (code === 'INTERNAL' ? 'no line in' : message.replace(/^config/, 'requests[0].$&')));
   assert.deepEqual(failures, heard);
 });
+
+test('after the last event there is no more, and the dance is forgotten', () =>
+  withBackEnd(
+    () => ({ seconds: 1, speed: 4, config: { seed: '7' } }),
+    async ({ url }) => {
+      const last = [...(await (await fetch(url)).text()).matchAll(/^id: (.*)$/gm)].at(-1)[1];
+      const again = (id) => fetch(url, { headers: { 'Last-Event-ID': id } });
+      const [id, number] = last.split('/');
+      const rest = await again(`${id}/${number - 1}`);
+      assert.match(await rest.text(), /event: over/);
+      const wrong = await again(id);
+      assert.deepEqual([wrong.status, await wrong.text()], [400, `Last-Event-ID: "${id}" is not an event\n`]);
+      for (let asked = 0; asked < 18; ++asked, await sleep(200)) assert.equal((await again(last)).status, 204);
+      assert.equal((await again(`${id}/0`)).status, 204, 'nobody has kept it');
+    },
+    { away: 3 },
+  ));

@@ -9,7 +9,8 @@ export interface DanceOrder {
   seconds: number;
   /**
    * The bytes of a WAV, FLAC, Ogg or MP3 file; or pieces of music while it sounds, `{ audio: { data } }`, of config.audio_format, as requests, among
-   * which others may be. Without it the dance is silent.
+   * which others may be. A piece should last a tenth of a second or less: what it waits for, she dances later. Frames are settled and keys answered
+   * beside it, whether it comes or not. After `seconds` the dance is over and the music is closed, by its return(). Without music the dance is silent.
    */
   music?: Uint8Array | ArrayBuffer | Iterable<StreamDanceRequest> | AsyncIterable<StreamDanceRequest>;
   /** Seed, model, style and the like. frames, encoding, generate_until and reject_invalid_keys are refused: serveDance() sets them. */
@@ -20,6 +21,7 @@ export interface DanceOrder {
   speed?: number;
 }
 
+/** What the callbacks throw the console hears of; the dance goes on. */
 export interface ServeOptions {
   /** Where pages find it; default '/dance'. */
   path?: string;
@@ -47,12 +49,13 @@ export interface DanceHandler {
    * its request, UNAVAILABLE or RESOURCE_EXHAUSTED where no server is free, and INTERNAL for all else, which onFailed hears in full. A body that a
    * framework has parsed is taken from request.body. Who may ask is for you to say, before this is called.
    *
-   * - `GET /dance`: a new dance, as events; with the header Last-Event-ID the rest of that one, or 204 where it is gone.
+   * - `GET /dance`: a new dance, as events; with the header Last-Event-ID the rest of that one, or 204 where that is gone or all was heard.
    *   `dance` {id, frame_rate, first_frame, skeleton}; `frames` {first, places: 3 numbers a frame, turns: 4 a joint}; `key` {id, time} or {id, refused};
    *   `warning` {id, message}; `moved` {frame}: another server goes on; last `over` {frames} or `failed` {code, message, retry_after}.
    * - `POST /dance/ID/keys`: a key, as in a key file (docs/poses.md), {id, time, pose: 'kick'}, whose place may be 'here'; or {id, time, rotations: {head: [0, 0.4, 0]}}, which
    *   sets these joints alone. 202 with {id}, which a key without an id gets; a key that comes too late, or near another one, is refused by an event. The same id again moves a key.
-   * - `DELETE /dance/ID/keys/KEY`: takes it back.
+   *   A key with a `hold` is one key in all of this; to the dance it is 5 a second, which are sent as they come near.
+   * - `DELETE /dance/ID/keys/KEY`: takes it back, and its hold; once it is reached, the rest of its hold.
    * - `POST /dance/ID/clock`: {time, paused}, where the page plays. 202. Frames up to a second later are settled. A page that never tells it plays
    *   from its first frame on.
    * - `GET /dance/skeleton`: the body that dances.

@@ -85,7 +85,7 @@ class DanceServer {
     const dance = this.#find(id);
     const warnings = []; // sent once the key is accepted
     const { id: key, requests } = editsOf(body, dance.model.skeleton, dance.dancer, (...warning) => warnings.push(warning));
-    this.#find(id).say(requests);
+    this.#find(id).setKey(requests);
     response.writeHead(202, { 'Content-Type': 'application/json' }).end(JSON.stringify({ id: key }));
     for (const warning of warnings) dance.warn(...warning);
   }
@@ -97,7 +97,7 @@ class DanceServer {
   }
 
   #removeKey(id, response, key) {
-    this.#find(id).say([{ remove_keyframe: { id: key } }]);
+    this.#find(id).removeKey(key);
     response.writeHead(202).end();
   }
 
@@ -106,7 +106,7 @@ class DanceServer {
     const gone = new AbortController();
     response.once('close', () => gone.abort());
     const dance = heard === undefined ? await this.#start(url, request) : this.#dances.get(heard.split('/')[0]);
-    const next = heard === undefined ? 0 : dance?.after(heard.split('/')[1]);
+    const next = heard === undefined ? 0 : dance?.after(heard);
     if (next === undefined) return response.writeHead(204).end(); // nothing is left; 204 stops a browser's reconnects
     // Keeps proxies from buffering or compressing the events.
     const headers = { 'Content-Type': 'text/event-stream', 'Cache-Control': 'no-store, no-transform', 'X-Accel-Buffering': 'no' };

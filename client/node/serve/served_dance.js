@@ -4,6 +4,8 @@ import { EventEmitter, once } from 'node:events';
 import { setTimeout as sleep } from 'node:timers/promises';
 import { invalid } from '../src/error.js';
 import { firstOutputFrame } from '../src/header.js';
+import { beside } from './beside.js';
+import { DanceKeys } from './dance_keys.js';
 import { isFile } from './order.js';
 import { PageClock } from './page_clock.js';
 import { Refusal, refusalOf } from './refusal.js';
@@ -12,6 +14,7 @@ const lead = 1; // seconds beyond the page's clock up to which frames are final 
 const tick = 0.1; // seconds
 const pieceOfFile = 1 << 20; // bytes
 const mostWaiting = 1000; // keys: the most that a dance has
+const allSettled = 'too late: all of the dance is settled';
 
 export class ServedDance {
   id = randomUUID();
@@ -28,6 +31,8 @@ export class ServedDance {
   #options;
   #end = new AbortController();
   #edits = []; // requests not yet sent
+  #keys; // DanceKeys, known with the model
+  #granted = 0; // frames of the model that are final, or about to be
   #told = []; // events: {text, frames sent so far}
   #dropped = 0; // number of forgotten events
   #bytes = 0; // in the kept events
@@ -50,22 +55,39 @@ export class ServedDance {
     this.#end.abort();
   }
 
-  say(requests) {
-    if (this.#edits.length + requests.length > mostWaiting) throw new Refusal(429, 'too many keys wait');
-    this.#requireInside(requests[0].keyframe ?? {});
-    this.#edits.push(...requests);
+  /** Sets or moves a key: the requests of editsOf(). */
+  setKey(requests) {
+    const [{ keyframe }, ...steps] = requests;
+    this.#requireInside(keyframe, steps.at(-1)?.keyframe);
+    this.#say(keyframe.id, () => this.#keys.set(requests, (id, message) => this.warn(id, message)));
   }
 
-  /** Throws for a key that is not before the end. A time is that of the nearest frame. */
-  #requireInside({ time, frame }) {
+  removeKey(id) {
+    this.#say(id, () => this.#keys.remove(id));
+  }
+
+  #say(id, requests) {
+    if (this.#edits.length >= mostWaiting) throw new Refusal(429, 'too many keys wait');
+    // Nobody would answer it.
+    if (this.#granted >= this.#last) this.#tell('key', { id, refused: allSettled });
+    else this.#edits.push(...requests());
+  }
+
+  /** The dance's end, in the model's frames. */
+  get #last() {
+    return Math.round(this.#order.seconds * this.model.model_frame_rate);
+  }
+
+  /** Throws for a key that is not before the end, or is held beyond it. A time is that of the nearest frame. */
+  #requireInside({ time, frame }, held) {
     const { seconds } = this.#order;
     const rate = this.model.model_frame_rate;
-    const end = Math.round(seconds * rate);
+    const end = this.#last;
+    const last = `its last frame is at ${Math.round((1000 * (end - 1)) / rate) / 1000} s`;
     if (frame >= end) throw invalid('frame', `${frame} is not before the end of the dance, ${end}`);
     if (time >= seconds) throw invalid('time', `${time} s is not before the end of the dance, ${seconds} s`);
-    if (Math.round(time * rate) >= end) {
-      throw invalid('time', `${time} s is nearest to the end of the dance, ${seconds} s; its last frame is at ${Math.round((1000 * (end - 1)) / rate) / 1000} s`);
-    }
+    if (Math.round(time * rate) >= end) throw invalid('time', `${time} s is nearest to the end of the dance, ${seconds} s; ${last}`);
+    if (held && Math.round(held.time * rate) > end) throw invalid('hold', `ends at ${Number(held.time.toFixed(3))} s, after the end of the dance: ${last}`);
   }
 
   /** Hears where its page plays, {time, paused}. */
@@ -77,11 +99,12 @@ export class ServedDance {
     this.#tell('warning', { id, message });
   }
 
-  /** The number of the event after a page's `last` one; undefined if that event is forgotten. */
-  after(last) {
-    const next = /^\d+$/.test(last) ? Number(last) + 1 : NaN;
-    if (!(next <= this.#dropped + this.#told.length)) throw new Refusal(400, `${last} is not an event`);
-    return next < this.#dropped ? undefined : next;
+  /** The number of the event after the last one that a page has heard, `heard`; undefined if that is forgotten, or no more will come. */
+  after(heard) {
+    const [, last] = /^[^/]+\/(\d+)$/.exec(heard) ?? [];
+    const [next, end] = [Number(last) + 1, this.#dropped + this.#told.length];
+    if (!(next <= end)) throw new Refusal(400, `Last-Event-ID: "${heard}" is not an event`);
+    return next < this.#dropped || (this.over && next === end) ? undefined : next;
   }
 
   /** Sends a page all events from `next` on, as fast as it reads, until none is left or the page is gone. */
@@ -120,16 +143,16 @@ export class ServedDance {
 
   async #dance() {
     const { signal } = this.#end;
-    const onRejected = (rejected) => this.#tell('key', { id: rejected.id, refused: this.#whyRefused(rejected) });
     const onResume = (resumed) => {
       this.#tell('moved', { frame: resumed.frame }); // without the address, which pages need not know
-      this.#options.onResume?.(resumed);
+      this.#options.onResume(resumed);
     };
     try {
       const { models } = await this.#client.info({ signal });
       const wanted = this.#order.config?.model;
       this.model = models.find(({ name }) => !wanted || name === wanted) ?? models[0];
-      for await (const answer of this.#client.streamDance(this.#requests(), { signal, onResume, onRejected })) this.#take(answer);
+      this.#keys = new DanceKeys(this.model.model_frame_rate, this.#last);
+      for await (const answer of this.#client.streamDance(this.#requests(), { signal, onResume, onRejected: () => {} })) this.#take(answer);
     } catch (error) {
       if (!signal.aborted) {
         const { code, message, retryAfter } = refusalOf(error);
@@ -145,7 +168,7 @@ export class ServedDance {
   /** The reason for a page, which counts in seconds. */
   #whyRefused({ code, field, reason, earliest_frame }) {
     const isLate = code === 'REJECTION_CODE_TOO_LATE' || code === 'REJECTION_CODE_FROZEN';
-    if (Number(earliest_frame) < 0 && (isLate || /^(remove_)?keyframe$/.test(field))) return 'too late: all of the dance is settled';
+    if (Number(earliest_frame) < 0 && (isLate || /^(remove_)?keyframe$/.test(field))) return allSettled;
     if (isLate) return `too late: all before ${Math.ceil((100 * Number(earliest_frame)) / this.model.model_frame_rate) / 100} s is settled`;
     return field && !field.startsWith('remove_keyframe') ? `${this.#asOwn(field)}: ${reason}` : reason;
   }
@@ -171,27 +194,36 @@ export class ServedDance {
       this.dancer = { here: [x, z], time: (first + frames.count) / this.#shownRate };
       this.#tell('frames', { first, places: short(frames.root_positions), turns: short(frames.rotations) });
     }
-    if (event?.keyframe_reached) this.#tell('key', { id: event.keyframe_reached.id, time: event.time });
-    if (event?.warning) this.warn(event.warning.keyframe_id, event.warning.message);
-    if (continuation) this.#options.onContinuation?.(continuation, this.id);
-    if (summary) this.#tell('over', { frames: this.#frames });
+    if (event) this.#hear(event);
+    if (continuation) this.#options.onContinuation(continuation, this.id);
+    if (summary) {
+      this.over = true; // from now on nobody would answer a key
+      this.#tell('over', { frames: this.#frames });
+    }
+  }
+
+  #hear({ frame, time, keyframe_reached: reached, keyframe_rejected: rejected, warning }) {
+    if (reached && this.#keys.reach(reached.id, Number(frame))) this.#tell('key', { id: reached.id, time });
+    const isRemoval = rejected?.field.startsWith('remove_keyframe');
+    if (rejected && this.#keys.refuse(rejected.id, Number(frame), isRemoval)) this.#tell('key', { id: rejected.id, refused: this.#whyRefused(rejected) });
+    if (warning) this.warn(this.#keys.owner(warning.keyframe_id), warning.message);
   }
 
   /** The dance's requests, each when the page's clock comes near it. */
   async *#requests() {
     const { config = {}, seconds, music, keys = [], speed = 1 } = this.#order;
     const rate = this.model.model_frame_rate;
-    const end = Math.round(seconds * rate);
+    const end = this.#last;
     const first = Number(config.continuation?.frame ?? config.history?.first_frame ?? 0);
     if (end <= first) throw invalid('seconds', `${seconds} s leaves no frame to dance: the dance begins at ${first / rate} s`);
-    let granted = 0;
     const step = () => {
       // A page that does not keep up is waited for.
       const waits = this.watchers > 0 && this.#frames - this.#taken > this.#options.behind * this.#shownRate;
       // What is settled stays so when a page goes back.
-      if (!waits) granted = Math.max(granted, Math.min(Math.round((this.#clock.time + lead) * rate), end));
-      return [...this.#edits.splice(0), { generate_until: { frame: granted } }];
+      if (!waits) this.#granted = Math.max(this.#granted, Math.min(Math.round((this.#clock.time + lead) * rate), end));
+      return [...this.#edits.splice(0), ...this.#keys.settle(this.#granted), { generate_until: { frame: this.#granted } }];
     };
+    const wait = 1000 / speed; // milliseconds of a second
     yield {
       config: {
         ...config,
@@ -202,18 +234,28 @@ export class ServedDance {
         reject_invalid_keys: true,
       },
     };
+    for (const key of keys) this.#keys.note(key);
     yield* keys;
     if (isFile(music)) yield* piecesOf(music);
-    for await (const request of isFile(music) ? [] : (music ?? [])) {
-      yield* step();
-      yield request;
-    }
+    else if (music) yield* this.#live(music, step, wait);
     if (music) yield { end_of_audio: {} };
-    while (granted < end) {
+    while (this.#granted < end) {
       yield* step();
-      await sleep((1000 * tick) / speed);
+      await sleep(wait * tick);
     }
     yield { keyframes_complete: {} };
+  }
+
+  /** Music while it sounds, to its end, or that of the dance: frames are settled, and keys sent, beside it. */
+  async *#live(music, step, wait) {
+    let end = Infinity;
+    for await (const pieces of beside(music, wait * tick)) {
+      if (pieces.length === 0) yield* step();
+      for (const piece of pieces) this.#keys.note(Object(piece));
+      yield* pieces;
+      if (this.#granted >= this.#last) end = Math.min(end, performance.now() + wait * lead); // so much of it is still to sound
+      if (performance.now() >= end) return;
+    }
   }
 }
 
