@@ -35,6 +35,8 @@ test('what serveDance() is given is checked before a page asks', () => {
     [[client, begin, { away: Infinity }], /^away: Infinity is not a number/],
     [[client, begin, { keep: -1 }], 'keep: -1 is not a number from 0 to Infinity'],
     [[client, begin, { behind: NaN }], 'behind: NaN is not a number from 0 to Infinity'],
+    [[client, begin, { origins: 'https://my.page' }], "origins: 'https://my.page' is not a list of origins, such as ['https://my.page']"],
+    [[client, begin, { origins: ['https://my.page/'] }], /^origins: 'https:\/\/my\.page\/' is not an origin such as/],
     [[client, begin, { onFailed: 'x' }], "onFailed: 'x' is not a function"],
     [[client, begin, { onResume: 5 }], 'onResume: 5 is not a function'],
   ]) {
@@ -84,3 +86,26 @@ test('after the last event there is no more, and the dance is forgotten', () =>
     },
     { away: 3 },
   ));
+
+test('pages of the origins that are named may ask, and no others', async () => {
+  const asked = { method: 'OPTIONS', headers: { Origin: 'https://my.page', 'Access-Control-Request-Method': 'POST', 'Access-Control-Request-Headers': 'authorization' } };
+  const of = (answer) => ['origin', 'methods', 'headers'].map((name) => answer.headers.get(`access-control-allow-${name}`));
+  for (const [origins, expected] of [
+    [['https://my.page', 'https://other.page'], ['https://my.page', 'GET, POST, DELETE', 'authorization']],
+    [['*'], ['*', 'GET, POST, DELETE', 'authorization']],
+    [['https://other.page'], [null, null, null]],
+  ]) {
+    await withBackEnd(
+      () => ({ seconds: 1, speed: 4 }),
+      async ({ url }) => {
+        const first = await fetch(`${url}/nobody/keys`, asked);
+        assert.deepEqual([first.status, ...of(first)], [204, ...expected]);
+        const { status, headers } = await fetch(`${url}/nobody/keys`, { method: 'POST', headers: asked.headers, body: '{}' });
+        assert.deepEqual([status, headers.get('access-control-allow-origin')], [404, expected[0]]);
+        assert.equal(headers.get('access-control-expose-headers'), expected[0] && 'Choreo-Code, Retry-After');
+      },
+      { origins },
+    );
+  }
+  await withBackEnd(() => ({ seconds: 1 }), async ({ url }) => assert.equal((await fetch(url, asked)).status, 405));
+});

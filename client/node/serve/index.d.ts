@@ -25,6 +25,8 @@ export interface DanceOrder {
 export interface ServeOptions {
   /** Where pages find it; default '/dance'. */
   path?: string;
+  /** Other origins whose pages may ask, such as 'https://my.page', or '*'; default none. Their browsers' OPTIONS are answered. */
+  origins?: string[];
   /** Seconds that a dance goes on without its page, whose connection may be lost; default 5. */
   away?: number;
   /** Bytes of each dance's latest events to keep for a page that comes back; default 8 MiB, some minutes. */

@@ -1,4 +1,5 @@
 // The routes with which pages watch and change dances. For their answers see index.d.ts.
+import { allow } from './cors.js';
 import { editsOf } from './edits.js';
 import { requireOrder } from './order.js';
 import { Refusal, refusalOf } from './refusal.js';
@@ -39,8 +40,9 @@ class DanceServer {
   async answer(request, response) {
     if (!URL.canParse(request.url, 'http://localhost')) return false;
     const url = new URL(request.url, 'http://localhost');
-    const { path } = this.#options;
+    const { path, origins } = this.#options;
     if (url.pathname !== path && !url.pathname.startsWith(`${path}/`)) return false;
+    if (allow(origins, request, response)) return true;
     try {
       await this.#route(url, request, response);
     } catch (error) {

@@ -6,7 +6,7 @@ import { hint, quoted } from '../src/words.js';
 const mostAway = (2 ** 31 - 1) / 1000; // seconds: a timer of Node.js takes no more
 
 const onFailed = (error) => console.error('serveDance:', error);
-const defaults = { path: '/dance', away: 5, keep: 8 << 20, behind: 10, onContinuation: undefined, onResume: undefined, onFailed };
+const defaults = { path: '/dance', origins: [], away: 5, keep: 8 << 20, behind: 10, onContinuation: undefined, onResume: undefined, onFailed };
 
 function numberTo(most, name, value) {
   if (!(typeof value === 'number' && value >= 0 && value <= most)) throw invalid(name, `${quoted(value)} is not a number from 0 to ${most}`);
@@ -19,6 +19,11 @@ function aFunction(name, value) {
 const checks = {
   path: (name, value) => {
     if (typeof value !== 'string' || !/^(\/[^/?#]+)+$/.test(value)) throw invalid(name, `${quoted(value)} is not a path such as '/dance', without a / at its end`);
+  },
+  origins: (name, value) => {
+    const isOrigin = (one) => one === '*' || (URL.canParse(one) && new URL(one).origin === one);
+    if (!Array.isArray(value)) throw invalid(name, `${quoted(value)} is not a list of origins, such as ['https://my.page']`);
+    for (const one of value) if (!isOrigin(one)) throw invalid(name, `${quoted(one)} is not an origin such as 'https://my.page', without a path, nor '*'`);
   },
   away: (...given) => numberTo(mostAway, ...given),
   keep: (...given) => numberTo(Infinity, ...given),
