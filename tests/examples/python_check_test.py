@@ -254,6 +254,11 @@ print(api_implementation.Type())
         for addresses in (None, b"one:50051"):
             self.assert_refused("addresses: .* is neither HOST:PORT nor", Client, addresses)
 
+    def test_asyncio_asks_a_server_what_it_has(self):
+        self.assertEqual(asyncio.run(aio.info(self.client)), self.client.info())
+        self.assertTrue(asyncio.run(aio.info(self.client, 5, cards=True)).models[0].card)
+        self.assert_refused("client: 'one:1' is not a Client$", lambda: asyncio.run(aio.info("one:1")))
+
     def test_a_stream_of_what_is_no_call_is_refused(self):
         async def read():
             return [answer async for answer in aio.stream(None)]
@@ -421,7 +426,7 @@ print(api_implementation.Type())
             self.assertNotIn("options", signature.parameters)
 
     def test_public_functions_say_what_they_take_and_give(self):
-        public = [aio.stream, pose]
+        public = [aio.stream, aio.info, pose]
         for kind in (Answers, Client):
             public += [value for name, value in vars(kind).items() if inspect.isfunction(value) and (name[0] != "_" or name == "__next__")]
         self.assertGreater(len(public), 6)

@@ -6,7 +6,8 @@ import asyncio
 import concurrent.futures
 import typing
 
-from ._client import Answer, Answers
+from . import choreography
+from ._client import Answer, Answers, Client
 from ._errors import invalid
 from ._words import quoted
 
@@ -24,4 +25,15 @@ async def stream(answers: Answers[Answer]) -> typing.AsyncIterator[Answer]:
     finally:
         answers.cancel()  # so the thread's present work ends soon
         thread.submit(answers.__exit__)
+        thread.shutdown(wait=False)
+
+
+async def info(client: Client, timeout: typing.Optional[float] = None, cards: bool = False) -> choreography.GetServerInfoResponse:
+    """Awaits `client.info(timeout, cards)`, on a thread of its own. If the task is cancelled, that ends by itself, within its timeout."""
+    if not isinstance(client, Client):
+        raise invalid("client", f"{quoted(client)} is not a Client")
+    thread = concurrent.futures.ThreadPoolExecutor(1, "choreo")
+    try:
+        return await asyncio.get_running_loop().run_in_executor(thread, client.info, timeout, cards)
+    finally:
         thread.shutdown(wait=False)
