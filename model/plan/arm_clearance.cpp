@@ -20,7 +20,6 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 constexpr int kDetourRounds = 3;  // a turned arm brings other points of it next to the trunk
-constexpr double kLessDetour = 0.6;
 constexpr double kFastestShoulder = 20;  // rad/s: recorded dancers are slower in 99.5 % of frames
 
 struct ClearedArm : Arm {
@@ -155,7 +154,7 @@ class ArmClearer {
     return inside;
   }
 
-  // The detour of frames [from, to). One that would whirl goes only a part of the way.
+  // The detour of frames [from, to). One that would whirl goes half the way, or a quarter.
   Detour Around(const Arm& arm, const std::vector<double>& least, int from, int to,
                 const Vector3d& towards) const {
     Detour detour{.towards = towards, .turns = std::vector<double>(plan_.size())};
@@ -167,7 +166,7 @@ class ArmClearer {
     }
     detour.whirls = Whirls(arm, detour);
     for (int round = 0; detour.whirls && round < kDetourRounds; ++round) {
-      for (double& turn : detour.turns) turn *= kLessDetour;
+      for (double& turn : detour.turns) turn /= 2;
       inside = Inside(arm, least, from, to, detour, &needed);
       detour.whirls = Whirls(arm, detour);
     }

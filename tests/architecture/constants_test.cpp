@@ -58,7 +58,7 @@ TEST(Architecture, ChosenNumbersAreFoundInEveryScope) {
 // Whoever adds one takes another away, or says in a decision why there must be more.
 TEST(Architecture, NumbersThatShapeADanceAreChosenNoMore) {
   const std::map<std::string, int> most = {
-      {"plan", 30}, {"dance", 20}, {"flow", 34}, {"audio", 98}, {"motion", 51}};
+      {"plan", 36}, {"dance", 20}, {"flow", 34}, {"audio", 98}, {"motion", 51}};
   // What is asked of a transition, and a song that is made for tests.
   const std::set<std::string> others = {"transition_spec.h", "transition_noise.h", "made_song.h",
                                         "made_song.cpp"};

@@ -15,7 +15,6 @@ namespace {
 
 constexpr double kRounding = 0.01;  // degrees of tolerance, for files that contain the limit itself
 
-constexpr double kInAir = 0.15;          // metres; less may be tiptoe
 constexpr double kMaxJumpSeconds = 1.0;  // seconds
 constexpr double kLimbSpeed = 7;         // m/s, about the body
 
