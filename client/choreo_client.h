@@ -145,8 +145,8 @@ using choreo::RankBy;
 struct TransitionRequest {
   DanceConfig config = {};  ///< its audio format is taken from `audio`
   int frames = 0;           ///< at the model's rate, 1 to ModelDescription::max_transition_frames
-  /// At the last frame; its own frame and time are not read. Hit, with `after`, only on the way
-  /// there. An empty id is "target" in warnings and the report.
+  /// At the last frame; its own frame, time and hands are not sent. Hit, with `after`, only on the
+  /// way there. An empty id is "target" in warnings and the report.
   std::optional<KeyPose> target = {};
   Audio audio = {};
   int64_t audio_first_sample =

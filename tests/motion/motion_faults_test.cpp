@@ -113,7 +113,7 @@ TEST(MotionFaults, ALimbSnaps) {
   const auto bends_at = [](double from, double seconds) {
     return [=](double now, Pose* pose) {
       const double share = std::clamp((now - from) / seconds, 0.0, 1.0);
-      pose->rotations.col(Body().left_elbow) += Eigen::Vector3d(0, -1.5 * share, 0);
+      pose->rotations.col(Body().left_elbow) += Eigen::Vector3d(0, -2.7 * share, 0);
     };
   };
   EXPECT_THAT(FaultsOf(Stands(bends_at(1, 0.3))), IsEmpty());
@@ -125,6 +125,19 @@ TEST(MotionFaults, ALimbSnaps) {
   const MotionFault fast = FaultOf(Stands(bends_at(1, 0.03), 60));
   EXPECT_EQ(fast.kind, MotionFaultKind::kSnap);
   EXPECT_NEAR(static_cast<double>(fast.first), 60, 4);
+  const MotionFault slow = FaultOf(Stands(bends_at(1, 0.03), 15));
+  EXPECT_EQ(slow.kind, MotionFaultKind::kSnap);
+  EXPECT_NEAR(static_cast<double>(slow.first), 15, 2);
+}
+
+TEST(MotionFaults, HaveAllTheirFramesAtOtherRates) {
+  const auto frames = [](double to) {
+    const MotionFault moved = AtRate({.first = 3, .last = 4}, 30, to);
+    return std::pair(moved.first, moved.last);
+  };
+  EXPECT_EQ(frames(60), std::pair(int64_t{6}, int64_t{9}));
+  EXPECT_EQ(frames(30), std::pair(int64_t{3}, int64_t{4}));
+  EXPECT_EQ(frames(7.5), std::pair(int64_t{1}, int64_t{1}));
 }
 
 TEST(MotionFaults, StretchesThatAreNearCountAsOne) {

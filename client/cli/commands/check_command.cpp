@@ -59,7 +59,8 @@ void AddCheckCommand(CLI::App& program) {
       "check",
       "List what looks wrong in a dance: arms inside the trunk, a body that floats, feet that "
       "slide, joints under the floor, limbs that snap.\nOne line a fault, in order of time, then "
-      "how many there are. The limits are those that recordings of dancers hold (docs/film.md).");
+      "how many there are. Most recordings of dancers keep the limits in 99 % of frames "
+      "(docs/film.md).");
   command->add_option("dance", options->dance, MotionFileExtensions() + " file.")
       ->required()
       ->check(CLI::ExistingFile);

@@ -14,8 +14,7 @@ std::vector<DanceFault> FindDanceFaults(const Skeleton& skeleton, const Motion& 
   std::vector<DanceFault> faults;
   for (MotionFault fault : FindMotionFaults(skeleton, motion)) {
     const std::string message = Describe(skeleton, fault);
-    for (int64_t* frame : {&fault.first, &fault.last})
-      *frame = std::llround(static_cast<double>(*frame) / motion.fps * fps);
+    fault = AtRate(fault, motion.fps, fps);
     faults.push_back({fault, skeleton.joint_names[static_cast<size_t>(fault.joint)], message});
   }
   return faults;

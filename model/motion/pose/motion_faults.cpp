@@ -157,12 +157,21 @@ std::string Centimetres(double metres) { return Rounded(std::round(1000 * metres
 
 std::vector<MotionFault> FindMotionFaults(const Skeleton& skeleton, const Motion& motion) {
   if (motion.frames.empty()) return {};
-  if (motion.fps <= kModelFps + kOnFrame) return FaultFinder(skeleton, motion).Find();
+  if (std::abs(motion.fps - kModelFps) <= kOnFrame) return FaultFinder(skeleton, motion).Find();
   std::vector<MotionFault> faults = FaultFinder(skeleton, Resample(motion, kModelFps)).Find();
-  for (MotionFault& fault : faults)
-    for (int64_t* frame : {&fault.first, &fault.last})
-      *frame = std::llround(static_cast<double>(*frame) * motion.fps / kModelFps);
+  for (MotionFault& fault : faults) {
+    fault = AtRate(fault, kModelFps, motion.fps);
+    fault.last = std::min(fault.last, std::ssize(motion.frames) - 1);
+  }
   return faults;
+}
+
+MotionFault AtRate(MotionFault fault, double from, double to) {
+  const auto frame = [&](int64_t at) { return std::llround(static_cast<double>(at) * to / from); };
+  const int64_t end = frame(fault.last + 1);
+  fault.first = frame(fault.first);
+  fault.last = std::max(fault.first, end - 1);
+  return fault;
 }
 
 std::string Describe(const Skeleton& skeleton, const MotionFault& fault) {
@@ -179,7 +188,9 @@ std::string Describe(const Skeleton& skeleton, const MotionFault& fault) {
     case MotionFaultKind::kSnap:
       break;
   }
-  return joint + "snaps, at " + std::to_string(std::lround(fault.worst)) + " rad/s2";
+  const int upper = skeleton.parents[static_cast<size_t>(fault.joint)];
+  return skeleton.joint_names[static_cast<size_t>(upper)] + " to " + joint + "the limb snaps, at " +
+         std::to_string(std::lround(fault.worst)) + " rad/s2";
 }
 
 std::string CountMotionFaults(std::span<const MotionFault> faults) {

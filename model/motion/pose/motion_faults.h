@@ -58,11 +58,14 @@ struct MotionFault {
   bool operator==(const MotionFault&) const = default;
 };
 
-/// The faults of a motion, in order of time. The floor is y = 0. Stretches of one joint's fault
-/// that are less than 0.2 s apart count as one, and a body floats for 0.2 s at least. Faster
-/// motions than kModelFps are measured at that rate. Skips kinds for which the skeleton lacks
+/// The faults of a motion, in order of time. The floor is y = 0. An arm's, a depth's and a snap's
+/// stretches that are less than 0.2 s apart count as one, and a body floats for 0.2 s at least.
+/// Motions of other rates are measured at kModelFps. Skips kinds for which the skeleton lacks
 /// joints.
 std::vector<MotionFault> FindMotionFaults(const Skeleton& skeleton, const Motion& motion);
+
+/// The same stretch in frames of another rate.
+MotionFault AtRate(MotionFault fault, double from, double to);
 
 /// Describes a fault: "left_wrist: the arm is 2 cm from the line of the spine".
 std::string Describe(const Skeleton& skeleton, const MotionFault& fault);
