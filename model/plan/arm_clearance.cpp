@@ -19,7 +19,7 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-constexpr int kDetourRounds = 3;  // a turned arm brings other points of it next to the trunk
+constexpr int kDetourRounds = 3;         // a turned arm brings other points of it next to the trunk
 constexpr double kFastestShoulder = 20;  // rad/s: recorded dancers are slower in 99.5 % of frames
 
 struct ClearedArm : Arm {
@@ -154,7 +154,8 @@ class ArmClearer {
     return inside;
   }
 
-  // The detour of frames [from, to). One that would whirl goes half the way, or a quarter.
+  // The detour of frames [from, to). One that would whirl goes a half, a quarter or an eighth of
+  // it.
   Detour Around(const Arm& arm, const std::vector<double>& least, int from, int to,
                 const Vector3d& towards) const {
     Detour detour{.towards = towards, .turns = std::vector<double>(plan_.size())};

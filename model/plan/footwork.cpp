@@ -189,7 +189,9 @@ class PlanStander {
       const double steepest = std::max(half_toes, own(steep, frame));
       const Eigen::Vector3d change =
           TurnTo(foot, WithHeight(foot, std::max(foot.y(), -steepest))) - lean;
-      lean += change * std::min(1.0, kLeanSpeed / context_.fps / std::max(1e-9, change.norm()));
+      // Continues from the pose before, as `own` has it.
+      const double most = frame == 0 ? INFINITY : kLeanSpeed / context_.fps;
+      lean += change * std::min(1.0, most / std::max(1e-9, change.norm()));
       const Eigen::Vector3d leant = ExpMap(lean) * foot;
       const double highest = std::max(toes_[side][i].y() - least, -length);
       const Eigen::Vector3d laid = WithHeight(leant, std::min(leant.y(), highest));

@@ -94,7 +94,7 @@ class PelvisSolver {
     for (int round = 0; round < kMostRounds; ++round) {
       LeastSquares problem(3 * moved_);
       for (int frame = -1; frame < count_; ++frame) AddSmoothness(frame, &problem);
-      if (lands_) AddFall(-1, &problem);  // it flew there as it flies on
+      if (Leaps(0)) AddFall(-1, &problem);  // it flew there as it flies on
       for (int frame = 0; frame < moved_; ++frame) {
         for (int axis = 0; axis < 3; ++axis)
           problem.Add({{3 * frame + axis, 1}}, 0, 1 / Square(rules_.options.offset));

@@ -69,8 +69,9 @@ double HitTime(double u, double hit);
 /// Turns shoulders, by a quarter turn at most, so that forearms and hands stay out of the trunk:
 /// kTrunkDepth (motion/floor/floor_clearance.h) from the line through its joints or, near the
 /// history and a key, as far as these are. Each time that an arm would pass through, it goes round
-/// in front, behind or outside, whichever leaves it least inside and then shakes it least. For a
-/// plan after arrival, as arrival moves arms, too.
+/// in front, behind or outside, whichever leaves it least inside and then shakes it least. A
+/// quick arm stays inside in part, because no shoulder turns faster than 20 rad/s or than the
+/// plan's. For a plan after arrival, as arrival moves arms, too.
 void KeepArmsOutside(const PlanContext& context, std::vector<Pose>* plan);
 
 /// Turns the wrists, which the network has never seen turn, as recorded dancers do: at random, but

@@ -75,7 +75,12 @@ void Turn(const PlanContext& context, const Wrist& wrist, size_t first_normal,
     const Pose& earlier = context.history[context.history.size() - 2];
     // Little way tells nothing of the rate.
     const double way = std::max(Way(wrist, earlier, *before), 1 / context.fps);
-    rate = (turn(*before) - turn(earlier)) / way;
+    const Vector3d step =
+        wrist.axes.transpose() *
+        RotationDifference(earlier.rotations.col(wrist.joint), before->rotations.col(wrist.joint));
+    // A hand that waves by itself does not go on once its arm moves.
+    const Vector3d most = 3 * spread / options.memory;
+    rate = (step / way).cwiseMax(-most).cwiseMin(most);
   }
   std::vector<Angle> angles;
   for (int axis = 0; axis < 3; ++axis)
@@ -108,9 +113,11 @@ void TurnWrists(const PlanContext& context, std::vector<Pose>* plan) {
   const std::array elbows = {skeleton.left_elbow, skeleton.right_elbow};
   for (size_t side = 0; side < 2; ++side) {
     const int wrist = elbows[side] < 0 ? -1 : FirstChild(skeleton, elbows[side]);
-    if (shoulders[side] < 0 || wrist < 0) return;
-    const Vector3d along = skeleton.offsets.col(wrist).normalized();
-    const Vector3d up = (Vector3d::UnitY() - along.y() * along).normalized();
+    const Vector3d along =
+        wrist < 0 ? Vector3d::Zero() : Vector3d(skeleton.offsets.col(wrist).normalized());
+    if (shoulders[side] < 0 || along.isZero()) continue;
+    const Vector3d above = std::abs(along.y()) < 0.9 ? Vector3d::UnitY() : Vector3d::UnitX();
+    const Vector3d up = (above - above.dot(along) * along).normalized();
     const double mirrored = side == 0 ? 1 : -1;
     Matrix3d axes;
     axes << mirrored * along, mirrored * up, along.cross(up);

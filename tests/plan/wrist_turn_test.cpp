@@ -82,6 +82,35 @@ TEST(TurnWrists, TheMeanMotionLeavesThemStraight) {
   EXPECT_LT(plan.back().rotations.col(RightWrist()).norm(), 1e-12);
 }
 
+// The history of a file may have a hand that waves by itself, and wrists beyond half a turn.
+TEST(TurnWrists, TameWhatTheHistoryDoes) {
+  std::vector<Pose> waves(10, RestPose(Body())), winds = waves;
+  for (size_t i = 0; i < 10; ++i) {
+    waves[i].rotations.col(LeftWrist()).z() = 0.15 * static_cast<double>(i);
+    winds[i].rotations.col(LeftWrist()).z() = 2.7 + 0.05 * static_cast<double>(i);
+  }
+  for (const auto& history : {waves, winds}) {
+    const double before = history.back().rotations.col(LeftWrist()).norm();
+    for (const Pose& pose : Turned(Swing(60, 1), {.temperature = 0}, history))
+      EXPECT_LT(pose.rotations.col(LeftWrist()).norm(), before + 0.6);
+  }
+}
+
+TEST(TurnWrists, NeedNoArmsAndNoLevelArms) {
+  Skeleton hangs = Body();
+  for (const int wrist : {LeftWrist(), RightWrist()}) hangs.offsets.col(wrist) << 0, -0.25, 0;
+  std::vector<Pose> plan = Swing(30, 1);
+  std::vector<Pose> history(1, plan.front());
+  history[0].rotations.col(LeftWrist()).z() = 0.8;
+  TurnWrists({.skeleton = hangs, .history = history, .fps = 30, .noise = {.temperature = 0}},
+             &plan);
+  EXPECT_NEAR(plan[0].rotations.col(LeftWrist()).norm(), 0.8, 0.1);
+  Skeleton armless = Body();
+  armless.left_elbow = -1;
+  TurnWrists({.skeleton = armless, .history = history, .fps = 30}, &plan);
+  EXPECT_TRUE(plan[10].rotations.allFinite());
+}
+
 TEST(TurnWrists, DifferFromSeedToSeed) {
   const auto last = [](uint64_t seed) {
     return Turned(Swing(100, 1), {.seed = seed, .temperature = 1}).back().rotations;
