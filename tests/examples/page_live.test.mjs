@@ -98,6 +98,25 @@ test('pieces come at once, and ticks beside them, until the music ends or fails'
   const got = [];
   for await (const pieces of beside([1, Promise.resolve(2)], 1000)) got.push(pieces);
   assert.deepEqual(got, [[1], [2]]);
+  const given = [];
+  const broken = function* () {
+    yield 1;
+    throw new Error('torn');
+  };
+  await assert.rejects(async () => {
+    for await (const pieces of beside(broken(), 1000)) given.push(...pieces);
+  }, /torn/);
+  assert.deepEqual(given, [1], 'what came before');
+  let closed = 0;
+  const close = () => {
+    ++closed;
+    throw new Error('it does not close');
+  };
+  const closing = (count) => ({ [Symbol.iterator]: () => ({ next: () => ({ done: --count < 0, value: count }), return: close }) });
+  for await (const pieces of beside(closing(1), 1000)) assert.deepEqual(pieces, [0]);
+  assert.equal(closed, 0, 'it has ended by itself');
+  for await (const pieces of beside(closing(9), 1000)) if (pieces[0] === 5) break;
+  assert.equal(closed, 1);
   const failing = (async function* () {
     yield await sleep(200, 3);
     throw new Error('no line in');

@@ -6,20 +6,55 @@
  */
 export async function* beside(source, every) {
   const pieces = source[Symbol.asyncIterator]?.() ?? source[Symbol.iterator]();
-  const ask = () => Promise.resolve(pieces.next()).then(async ({ done, value }) => ({ done, piece: await value }));
-  let timer;
-  const tick = () => new Promise((resolve) => (timer = setTimeout(resolve, every)));
+  let [come, isDue, isOver, timer] = [undefined, false, false, undefined];
+  let wake = () => {};
+  const next = async () => {
+    try {
+      return await pieces.next();
+    } catch (error) {
+      isOver = true;
+      throw error;
+    }
+  };
+  const take = (taken) => {
+    come = taken;
+    wake();
+  };
+  const ask = () => {
+    come = undefined;
+    const answer = next().then(async ({ done, value }) => {
+      isOver = Boolean(done);
+      return { done, piece: await value };
+    });
+    answer.then(take, (error) => take({ failed: true, error }));
+  };
+  const tick = () => {
+    isDue = false;
+    timer = setTimeout(() => {
+      isDue = true;
+      wake();
+    }, every);
+  };
   try {
-    for (let [next, beat] = [ask(), tick()]; ; ) {
-      const come = await Promise.race([beat, next]);
-      if (come?.done) return;
-      if (come) next = ask();
-      else beat = tick();
-      next.catch(() => {}); // it is thrown above, if it is awaited
-      yield come ? [come.piece] : [];
+    for (tick(), ask(); ; ) {
+      // Not a race, each of which would leave something behind on a silent source.
+      if (!isDue && !come) await new Promise((resolve) => (wake = resolve));
+      if (isDue) {
+        tick();
+        yield [];
+        continue;
+      }
+      const { done, piece, failed, error } = come;
+      if (failed) throw error;
+      if (done) return;
+      ask();
+      yield [piece];
     }
   } finally {
     clearTimeout(timer);
-    Promise.resolve(pieces.return?.()).catch(() => {}); // once it has given the piece that it is about
+    if (!isOver) close(pieces).catch(() => {}); // once it has given the piece that it is about
   }
 }
+
+/** Also what is thrown at once is a rejection. */
+const close = async (pieces) => pieces.return?.();
