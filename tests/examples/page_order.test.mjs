@@ -2,6 +2,7 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { setTimeout as sleep } from 'node:timers/promises';
+import { allow } from '../../client/node/serve/cors.js';
 import { serveDance } from '../../client/node/serve/index.js';
 import { withBackEnd } from './back_end.mjs';
 
@@ -37,12 +38,13 @@ test('what serveDance() is given is checked before a page asks', () => {
     [[client, begin, { behind: NaN }], 'behind: NaN is not a number from 0 to Infinity'],
     [[client, begin, { origins: 'https://my.page' }], "origins: 'https://my.page' is not a list of origins, such as ['https://my.page']"],
     [[client, begin, { origins: ['https://my.page/'] }], /^origins: 'https:\/\/my\.page\/' is not an origin such as/],
+    [[client, begin, { origins: ['capacitor://localhost/'] }], /is not an origin such as/],
     [[client, begin, { onFailed: 'x' }], "onFailed: 'x' is not a function"],
     [[client, begin, { onResume: 5 }], 'onResume: 5 is not a function'],
   ]) {
     assert.throws(() => serveDance(...given), { name: 'ChoreoError', code: 'INVALID_ARGUMENT', message });
   }
-  const unset = { path: undefined, away: undefined, keep: Infinity, behind: 0, onFailed: null };
+  const unset = { path: undefined, origins: ['https://my.page:8443', 'capacitor://localhost'], away: undefined, keep: Infinity, behind: 0, onFailed: null };
   assert.equal(typeof serveDance(client, begin, unset), 'function');
 });
 
@@ -108,4 +110,9 @@ test('pages of the origins that are named may ask, and no others', async () => {
     );
   }
   await withBackEnd(() => ({ seconds: 1 }), async ({ url }) => assert.equal((await fetch(url, asked)).status, 405));
+  for (const [before, vary] of [[undefined, 'Origin'], ['Cookie', 'Cookie, Origin'], [['Cookie', 'Accept'], 'Cookie, Accept, Origin']]) {
+    const headers = new Map([['Vary', before]]);
+    allow(['https://my.page'], { method: 'GET', headers: {} }, { getHeader: (name) => headers.get(name), setHeader: (name, value) => headers.set(name, value) });
+    assert.equal(headers.get('Vary'), vary);
+  }
 });

@@ -8,7 +8,7 @@ const remembered = 7200; // seconds, the most that browsers take
 export function allow(origins, request, response) {
   if (origins.length === 0) return false;
   const { origin, 'access-control-request-headers': headers } = request.headers;
-  response.setHeader('Vary', 'Origin');
+  response.setHeader('Vary', [response.getHeader('Vary') ?? [], 'Origin'].flat().join(', '));
   const isAllowed = origins.includes('*') || origins.includes(origin);
   if (isAllowed) {
     response.setHeader('Access-Control-Allow-Origin', origins.includes('*') ? '*' : origin);

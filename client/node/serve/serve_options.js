@@ -21,7 +21,9 @@ const checks = {
     if (typeof value !== 'string' || !/^(\/[^/?#]+)+$/.test(value)) throw invalid(name, `${quoted(value)} is not a path such as '/dance', without a / at its end`);
   },
   origins: (name, value) => {
-    const isOrigin = (one) => one === '*' || (URL.canParse(one) && new URL(one).origin === one);
+    // A scheme of an app's own, such as capacitor://localhost, has an origin that URL does not know.
+    const isPlain = (one) => typeof one === 'string' && /^[a-z][a-z0-9+.-]*:\/\/[^/?#\s]+$/.test(one) && URL.canParse(one);
+    const isOrigin = (one) => one === '*' || (isPlain(one) && [one, 'null'].includes(new URL(one).origin));
     if (!Array.isArray(value)) throw invalid(name, `${quoted(value)} is not a list of origins, such as ['https://my.page']`);
     for (const one of value) if (!isOrigin(one)) throw invalid(name, `${quoted(one)} is not an origin such as 'https://my.page', without a path, nor '*'`);
   },
