@@ -76,7 +76,7 @@ export class Dancer {
   /// What looks wrong in a dance.
   async check(motion: Motion): Promise<Fault[]> {
     const answer = await this.wire.request({ case: 'check', value: motion.toClip() });
-    if (answer.case !== 'faults') return [];
+    if (answer.case !== 'faults') throw new Error(`The program answers a check with ${answer.case}.`);
     return answer.value.faults.map(({ firstFrame, lastFrame, text }) => ({ from: Number(firstFrame), to: Number(lastFrame), text: text.replaceAll('_', ' ') }));
   }
 

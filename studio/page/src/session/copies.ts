@@ -45,14 +45,19 @@ export function copyKeys(): boolean {
 /// Pastes the copied keys from the playhead on, relative to where the dancer is then.
 export const pasteKeys = () => void (canPaste.value && set(copied.value, Math.round(audio.currentTime * dancer.fps)));
 
-/// Copies the selected key to the playhead, or to the next free beat if a key is there.
+const offBeat = 15; // frames from try to try where no beat is free
+
+/// Copies the selected key to the playhead, or, if a key is there, to the next free beat, or to where no other key must make way.
 export function duplicateKey() {
   const key = keyOf(selectedKey.value);
   if (!key || live.value) return;
   const now = Math.round(audio.currentTime * dancer.fps);
   const isTaken = (frame: number) => project.value.keys.some((other) => isTooNear(other.frame, frame));
   const next = beats.value.list.map(({ time }) => Math.round(time * dancer.fps)).find((frame) => frame > key.frame && !isTaken(frame));
-  set([key], isTaken(now) ? next ?? now + 15 : now);
+  let free = now + offBeat;
+  while (isTaken(free)) free += offBeat;
+  const spare = free < total.value ? free : Infinity; // set() says that there is no room
+  set([key], isTaken(now) ? next ?? spare : now);
 }
 
 const endHold = 1; // seconds that an ending is held at least, as in the program (client/authoring/keys/ending.cpp)

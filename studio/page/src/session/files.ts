@@ -130,14 +130,15 @@ export const leaveFilm = () => filmed?.abort();
 /// Makes a film of the dance from the camera's view.
 export const exportFilm = (kind: Kind, painter: Painter) => work(async () => {
   if (filmed) return;
-  const { song: played } = moment.value;
-  const motion = await made(moment.value);
-  audio.pause();
-  dropSketch();
-  [takes.value, filming.value] = [[], { share: 0, left: '' }];
-  filmed = new AbortController();
-  let began: number | null = null; // ms; encoding the sound comes first and does not predict the time for pictures
+  filmed = new AbortController(); // before all that is waited for: one film at a time
   try {
+    const { signal } = filmed;
+    const { song: played } = moment.value;
+    const motion = await made(moment.value);
+    audio.pause();
+    dropSketch();
+    [takes.value, filming.value] = [[], { share: 0, left: '' }];
+    let began: number | null = null; // ms; encoding the sound comes first and does not predict the time for pictures
     const bytes = await film({
       kind,
       motion,
@@ -147,7 +148,7 @@ export const exportFilm = (kind: Kind, painter: Painter) => work(async () => {
         began ??= performance.now();
         filming.value = { share, left: timeLeft(share, (performance.now() - began) / 1000) };
       },
-      signal: filmed.signal,
+      signal,
     });
     download(`${stem()}.${kind}`, bytes as BlobPart, `video/${kind}`);
   } finally {

@@ -10,6 +10,7 @@ const pictureRate = 5e6; // bits a second
 const soundRate = 128e3;
 const keyEvery = 60; // pictures
 const mostWaiting = 4; // pictures in the encoder
+const nextLook = 100; // ms after which the encoder is looked at again: not every browser tells of each picture that it has taken
 
 export type Kind = 'webm' | 'mp4';
 /// Video codecs, best first.
@@ -131,7 +132,10 @@ export async function film({ kind, motion, song, draw, progressed, signal }: Pla
     picture.close();
     progressed(i / count);
     await breathe();
-    while (pictures.encodeQueueSize > mostWaiting && !failure) await new Promise<void>((resolve) => (wake = resolve));
+    while (pictures.encodeQueueSize > mostWaiting && !failure && !signal.aborted) await new Promise<void>((resolve) => {
+      wake = resolve;
+      setTimeout(resolve, nextLook);
+    });
   }
   if (failure) throw failure;
   await pictures.flush();

@@ -61,7 +61,7 @@ function fill(filled: Moment, make: Make) {
     .then(() => {
       busy.value -= 1;
       filled.isReady = true;
-      void findFaults(filled);
+      if (!filled.unmade) void findFaults(filled);
       return filled.motion.value;
     });
 }
