@@ -1,5 +1,5 @@
 // For pages: a dance of serveDance() in choreo-client/serve, while it is made. Without any dependency; it works in Node.js, too.
-import type { Character, Shown, Smpl } from '../character/index.js';
+import type { Character, Hands, Shown, Smpl } from '../character/index.js';
 import type { Exactly } from './exactly.js';
 
 /** Describes the dance when it begins. */
@@ -11,13 +11,26 @@ export interface DanceHeader {
   skeleton: Smpl;
 }
 
+/** Where, how long and how hard a pose is taken, and what the hands do from then on. */
+interface Taken {
+  place?: [number, number] | 'here';
+  facing?: number;
+  hold?: number;
+  hit?: number;
+  hands?: Hands;
+}
+
+/** Degrees by joint, as in key files (docs/poses.md): the bend of a knee or elbow, or turns about x, y and z. */
+type Degrees = Record<string, number | [number, number, number]>;
+
 /**
- * A library pose by name, or rotation vectors of some joints, [x, y, z] in radians. Without a `place` it is taken wherever the dancer is, a jump
- * standing; 'here' is where she is when the key arrives. A pose that is held for `hold` seconds, within the dance, is one key until its end; a key
+ * A library pose by name, of which `joints` names those to set or turns some; the degrees of some joints; or rotation vectors of some, [x, y, z] in
+ * radians. Without a `place` it is taken wherever the dancer is, a jump standing; 'here' is where she is when the key arrives. A pose that is held for `hold` seconds, within the dance, is one key until its end; a key
  * within a hold ends it half a second before itself, and onWarning says so.
  */
 export type KeyPose =
-  | { pose: string; rotations?: undefined; place?: [number, number] | 'here'; facing?: number; hold?: number; hit?: number }
+  | ({ pose: string; joints?: string[] | Degrees; rotations?: undefined } & Taken)
+  | ({ joints: Degrees; pose?: undefined; rotations?: undefined } & Taken)
   | { rotations: Record<string, [number, number, number]>; pose?: undefined };
 
 /** A key was reached at `time`, or what was asked for is not done for the reason `refused`: a key that was to move stands where it was. */

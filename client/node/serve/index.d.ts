@@ -74,6 +74,6 @@ export interface DanceHandler {
  */
 export function serveDance(
   client: ChoreoClient,
-  begin: (url: URL, request: IncomingMessage) => DanceOrder | Promise<DanceOrder>,
+  begin: (url: URL, request: IncomingMessage | Http2ServerRequest) => DanceOrder | Promise<DanceOrder>,
   options?: ServeOptions,
 ): DanceHandler;
