@@ -19,6 +19,18 @@ test('a key that cannot be moved or taken back still stands where it was', () =>
   assert.equal(keys.after(5), 6);
 });
 
+test('the move that is refused is taken back, not a good one that followed', () => {
+  const keys = new PendingKeys();
+  keys.add({ id: 'a', time: 9 });
+  keys.add({ id: 'a', time: 5 });
+  keys.refuse('a', 9);
+  assert.deepEqual([keys.after(5), keys.after(9)], [6, 9]);
+  keys.remove('a');
+  keys.add({ id: 'a', time: 20 });
+  keys.refuse('a', null);
+  assert.deepEqual([keys.after(5), keys.after(20)], [5, 21]);
+});
+
 test('a held key takes its place until its end, and moves that are on their way survive its news', () => {
   const keys = new PendingKeys();
   keys.add({ id: 'a', time: 5, hold: 2 });

@@ -138,7 +138,7 @@ class PageDance {
       for await (const [event, data] of eventsOf(this.#url, { ...this.#options, signal: this.#stop.signal })) {
         if (event === 'dance') this.#begin(data, begin);
         else if (event === 'frames') this.#take(data);
-        else if (event === 'key') (this.#settle(data), onKey(data));
+        else if (event === 'key') onKey(this.#settle(data));
         else if (event === 'warning') onWarning(data);
         else if (event === 'moved') onMoved(data);
         else if (event === 'failed') throw new DanceError(data.message, { code: data.code, retryAfter: data.retry_after });
@@ -156,9 +156,12 @@ class PageDance {
     if (!this.#stop.signal.aborted) onEnd(failure);
   }
 
-  #settle({ id, time, refused }) {
+  /** Returns what the page is to hear. */
+  #settle({ asked, ...news }) {
+    const { id, time, refused } = news;
     if (refused === undefined) this.#pending.reach(id, time);
-    else this.#pending.refuse(id);
+    else this.#pending.refuse(id, asked);
+    return news;
   }
 
   #begin(header, begin) {

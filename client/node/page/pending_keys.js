@@ -29,9 +29,12 @@ export class PendingKeys {
     return () => this.#keep(id, this.#of(id).filter((other) => other !== span));
   }
 
-  /** The newest is not danced: what was asked for before it stands. */
-  refuse(id) {
-    this.#keep(id, this.#of(id).slice(0, -1));
+  /** What was asked for at `time`, null for a removal, or else the newest, is not done: what was asked for before it stands. */
+  refuse(id, time) {
+    const asked = this.#of(id);
+    const at = asked.findLastIndex(({ from }) => (time === null ? from === undefined : Math.abs(from - time) < near));
+    const refused = at < 0 ? asked.length - 1 : at;
+    this.#keep(id, asked.filter((_, index) => index !== refused));
   }
 
   /** A key is reached, from where it may be held. */

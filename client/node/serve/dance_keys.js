@@ -44,16 +44,23 @@ export class DanceKeys {
     return [...gone, { keyframe }, ...come];
   }
 
-  /** The requests that take a key back or, once it is reached, the rest of its hold. */
-  remove(id) {
+  /** Whether a key is asked for where all is settled, or is itself settled where it stands. */
+  isLate(keyframe) {
+    return this.#frame(keyframe) < this.#settled || this.#newest(keyframe.id)?.frame < this.#settled;
+  }
+
+  /** The requests that take a key back or, once it is reached, the rest of its hold. `warn` as in set(). */
+  remove(id, warn) {
     this.#requireOwn(id);
     const now = this.#newest(id);
     if (now?.isReached && now.steps.some((step) => this.#isOpen(step))) {
       now.steps = [];
-      return this.#changes().gone;
+      const { gone, come } = this.#changes(warn);
+      return [...gone, ...come];
     }
     this.#ask(id, { steps: [] });
-    return [...this.#changes().gone, { remove_keyframe: { id } }];
+    const { gone, come } = this.#changes(warn); // a hold that it has cut goes on
+    return [...gone, { remove_keyframe: { id } }, ...come];
   }
 
   /** The requests that are due before all up to `frame` is settled. */
@@ -84,8 +91,8 @@ export class DanceKeys {
     return true;
   }
 
-  /** A key, or its removal, is refused: what was asked for before it stands. Returns whether it is the page's own. */
-  refuse(id, frame, isRemoval) {
+  /** A key, or its removal, is refused: what was asked for before it stands. Returns whether it is the page's own, and not a step of its hold. */
+  refuse(id, frame, { isRemoval = false, isFrozen = false } = {}) {
     const owner = this.#owners.get(id);
     if (owner !== undefined) {
       for (const one of this.#keys.get(owner) ?? []) one.steps = one.steps.filter((step) => step.id !== id);
@@ -93,11 +100,19 @@ export class DanceKeys {
       return false;
     }
     const asked = this.#keys.get(id) ?? [];
-    // A frozen key's removal is refused with the frame of the key, which is older than what was asked for since.
-    const at = asked.findLastIndex((one, index) => (isRemoval ? one.frame === undefined : one.frame === frame && (index > 0 || asked.length === 1)));
+    // What is frozen stands first, and moves of it may be refused with its own frame.
+    const stands = (index) => isFrozen && index === 0 && asked.length > 1;
+    const at = asked.findLastIndex((one, index) => (isRemoval ? one.frame === undefined : one.frame === frame && !stands(index)));
     asked.splice(at < 0 ? asked.length - 1 : at, 1);
     if (asked.length === 0) this.#forget(id);
     return true;
+  }
+
+  /** A step of the hold of the key `id` is refused for good. Returns whether it is the first of that hold. */
+  shorten(id) {
+    const now = this.#newest(id);
+    if (now?.frame === undefined || now.isShort) return false;
+    return (now.isShort = true);
   }
 
   /** Throws for the id of a step. */

@@ -7,6 +7,7 @@ import { pose } from '../src/pose.js';
 import { hint, quoted } from '../src/words.js';
 
 const mostBytesOfId = 256;
+const mostBytesOfHeld = mostBytesOfId - ' held 300'.length; // the steps of a hold have ids of their own
 const fastest = 5; // metres a second, as in RequiredSpeed of model/dance
 const ofRotations = ['id', 'time', 'rotations'];
 
@@ -17,8 +18,8 @@ const ofRotations = ['id', 'time', 'rotations'];
  */
 export function editsOf(body, skeleton, dancer, warn) {
   if (!isObject(body)) throw invalid('key', `${quoted(body)} is neither {id, time, pose} nor {id, time, rotations}`);
-  const { id = randomUUID(), time, rotations, place } = body;
-  requireId(id);
+  const { id = randomUUID(), time, rotations, place, hold } = body;
+  requireId(id, hold === undefined ? mostBytesOfId : mostBytesOfHeld);
   if (!('frame' in body) || isObject(rotations)) requireTime(time);
   if (isObject(rotations)) return { id, requests: [ofJoints({ ...body, id }, skeleton)] };
   if (!['pose', 'rotations', 'joints'].some((member) => member in body)) throw invalid('pose', 'is missing, and so are rotations');
@@ -27,10 +28,10 @@ export function editsOf(body, skeleton, dancer, warn) {
   return { id, requests };
 }
 
-function requireId(id) {
+function requireId(id, most) {
   const bytes = typeof id === 'string' ? Buffer.byteLength(id) : undefined;
   if (bytes === undefined) throw invalid('id', `${quoted(id)} is not a text`);
-  if (!(bytes >= 1 && bytes <= mostBytesOfId)) throw invalid('id', `has ${bytes} bytes, not 1 to ${mostBytesOfId}`);
+  if (!(bytes >= 1 && bytes <= most)) throw invalid('id', `has ${bytes} bytes, not 1 to ${most}${most < mostBytesOfId ? ', the most of a held key' : ''}`);
   requireWellFormed(id, 'id');
   if (id === '.' || id === '..') throw invalid('id', `"${id}" means a folder in an address, such as that at which a key is taken back`);
 }

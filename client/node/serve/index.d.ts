@@ -52,11 +52,12 @@ export interface DanceHandler {
    * framework has parsed is taken from request.body. Who may ask is for you to say, before this is called.
    *
    * - `GET /dance`: a new dance, as events; with the header Last-Event-ID the rest of that one, or 204 where that is gone or all was heard.
-   *   `dance` {id, frame_rate, first_frame, skeleton}; `frames` {first, places: 3 numbers a frame, turns: 4 a joint}; `key` {id, time} or {id, refused};
+   *   `dance` {id, frame_rate, first_frame, skeleton}; `frames` {first, places: 3 numbers a frame, turns: 4 a joint}; `key` {id, time} or {id, refused, asked: its time, or null for a removal};
    *   `warning` {id, message}; `moved` {frame}: another server goes on; last `over` {frames} or `failed` {code, message, retry_after}.
    * - `POST /dance/ID/keys`: a key, as in a key file (docs/poses.md), {id, time, pose: 'kick'}, whose place may be 'here'; or {id, time, rotations: {head: [0, 0.4, 0]}}, which
    *   sets these joints alone. 202 with {id}, which a key without an id gets; a key that comes too late, or near another one, is refused by an event. The same id again moves a key.
-   *   A key with a `hold` is one key in all of this; to the dance it is 5 a second, which are sent as they come near.
+   *   A key with a `hold` is one key in all of this; to the dance it is 5 a second, which are sent as they come near. A dance has 1000 keys,
+   *   steps of holds included.
    * - `DELETE /dance/ID/keys/KEY`: takes it back, and its hold; once it is reached, the rest of its hold.
    * - `POST /dance/ID/clock`: {time, paused}, where the page plays. 202. Frames up to a second later are settled. A page that never tells it plays
    *   from its first frame on.

@@ -14,6 +14,7 @@ const lead = 1; // seconds beyond the page's clock up to which frames are final 
 const tick = 0.1; // seconds
 const pieceOfFile = 1 << 20; // bytes
 const mostWaiting = 1000; // keys: the most that a dance has
+const [tooLate, frozen] = ['REJECTION_CODE_TOO_LATE', 'REJECTION_CODE_FROZEN'];
 const allSettled = 'too late: all of the dance is settled';
 
 export class ServedDance {
@@ -59,17 +60,21 @@ export class ServedDance {
   setKey(requests) {
     const [{ keyframe }, ...steps] = requests;
     this.#requireInside(keyframe, steps.at(-1)?.keyframe);
-    this.#say(keyframe.id, () => this.#keys.set(requests, (id, message) => this.warn(id, message)));
+    const { id, time = keyframe.frame / this.model.model_frame_rate } = keyframe;
+    const warn = (...given) => this.warn(...given);
+    this.#say({ id, asked: time }, this.#keys.isLate(keyframe), () => this.#keys.set(requests, warn));
   }
 
   removeKey(id) {
-    this.#say(id, () => this.#keys.remove(id));
+    const warn = (...given) => this.warn(...given);
+    this.#say({ id, asked: null }, false, () => this.#keys.remove(id, warn));
   }
 
-  #say(id, requests) {
+  #say(news, isLate, requests) {
     if (this.#edits.length >= mostWaiting) throw new Refusal(429, 'too many keys wait');
     // Nobody would answer it.
-    if (this.#granted >= this.#last) this.#tell('key', { id, refused: allSettled });
+    if (this.#granted >= this.#last) this.#tell('key', { ...news, refused: allSettled });
+    else if (isLate) this.#tell('key', { ...news, refused: this.#whyRefused({ code: tooLate, earliest_frame: this.#granted }) }); // nor may its steps be danced
     else this.#edits.push(...requests());
   }
 
@@ -167,7 +172,7 @@ export class ServedDance {
 
   /** The reason for a page, which counts in seconds. */
   #whyRefused({ code, field, reason, earliest_frame }) {
-    const isLate = code === 'REJECTION_CODE_TOO_LATE' || code === 'REJECTION_CODE_FROZEN';
+    const isLate = code === tooLate || code === frozen;
     if (Number(earliest_frame) < 0 && (isLate || /^(remove_)?keyframe$/.test(field))) return allSettled;
     if (isLate) return `too late: all before ${Math.ceil((100 * Number(earliest_frame)) / this.model.model_frame_rate) / 100} s is settled`;
     return field && !field.startsWith('remove_keyframe') ? `${this.#asOwn(field)}: ${reason}` : reason;
@@ -204,9 +209,18 @@ export class ServedDance {
 
   #hear({ frame, time, keyframe_reached: reached, keyframe_rejected: rejected, warning }) {
     if (reached && this.#keys.reach(reached.id, Number(frame))) this.#tell('key', { id: reached.id, time });
-    const isRemoval = rejected?.field.startsWith('remove_keyframe');
-    if (rejected && this.#keys.refuse(rejected.id, Number(frame), isRemoval)) this.#tell('key', { id: rejected.id, refused: this.#whyRefused(rejected) });
+    if (rejected) this.#hearRefused(rejected, Number(frame), time);
     if (warning) this.warn(this.#keys.owner(warning.keyframe_id), warning.message);
+  }
+
+  #hearRefused(rejected, frame, time) {
+    const { id, field, code } = rejected;
+    const [isRemoval, isFrozen] = [field.startsWith('remove_keyframe'), code === frozen];
+    const refused = this.#whyRefused(rejected);
+    const owner = this.#keys.owner(id);
+    // The frame of what is frozen is its own, and not what was asked for.
+    if (this.#keys.refuse(id, frame, { isRemoval, isFrozen })) this.#tell('key', { id, refused, asked: isRemoval ? null : isFrozen ? undefined : time });
+    else if (code === 'REJECTION_CODE_INVALID' && !isRemoval && this.#keys.shorten(owner)) this.warn(owner, `it is not held to its end: ${refused}`);
   }
 
   /** The dance's requests, each when the page's clock comes near it. */
