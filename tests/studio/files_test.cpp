@@ -206,7 +206,7 @@ TEST_F(StudioTest, FindsTheFaultsOfAClip) {
   EXPECT_EQ(fault.kind(), "floating");
   EXPECT_EQ(fault.text(), "the body floats 50 cm above the floor");
   clip->mutable_frames()->set_count(121);
-  EXPECT_THAT(page.Ask(check).failure().message(), HasSubstr("121"));
+  EXPECT_THAT(page.Ask(check).failure().message(), HasSubstr("must be 363"));
 }
 
 TEST_F(StudioTest, RefusesAClipOfFarTooManyFrames) {
