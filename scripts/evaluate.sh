@@ -14,7 +14,7 @@ cd "$root"
 data=build/data
 stamp=$({
   find -L "$recordings/dancedb" -type f -printf '%P %s\n' | sort
-  cat model/{body,fit,formats,formats/*,motion}/*.{cpp,h} model/training/{*recording*,jolts,prepare,prepared_clip}.{cpp,h}
+  cat model/{body,fit,fit/*,formats,formats/*,motion,motion/*}/*.{cpp,h} model/training/{prepare/*,clips/prepared_clip.*}
 } | sha256sum)
 if [[ $(cat "$data/stamp" 2>/dev/null) != "$stamp" ]]; then
   rm -rf "$data/dancedb"
