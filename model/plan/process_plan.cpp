@@ -31,7 +31,8 @@ void CheckFinite(const Plan& plan, const ModelInfo& model, int64_t first_frame,
   for (size_t at = 0; at < plan.poses.size(); ++at) {
     const Pose& pose = plan.poses[at];
     const bool good =
-        pose.root_position.allFinite() && pose.rotations.allFinite() &&
+        // Frames are sent as floats.
+        pose.root_position.cast<float>().allFinite() && pose.rotations.cast<float>().allFinite() &&
         pose.rotations.cols() == model.skeleton.joints() &&
         (plan.contacts.empty() || std::ranges::all_of(plan.contacts[at], is_finite)) &&
         (plan.log_likelihoods.empty() || is_finite(plan.log_likelihoods[at]));

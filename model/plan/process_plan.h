@@ -19,7 +19,7 @@ struct ProcessedPlan {
 /// (footwork.h); contacts. `held`: the dancer holds the target's pose, so arrival's path alone
 /// determines the poses. Pauses before each ten seconds of footwork. `model` and `valid` must
 /// outlive the slices. Throws Error(kInternal) for a plan of the wrong length, and for any value
-/// that is not finite.
+/// that is not finite as a float.
 Slices<ProcessedPlan> ProcessPlan(const ModelInfo& model, const ValidSpec& valid, bool held,
                                   Plan plan);
 

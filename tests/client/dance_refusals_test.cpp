@@ -66,9 +66,9 @@ TEST_F(CommandTest, WarnsOnceOfAPoseThatIsHeld) {
                                        << R"(, "root_position": [0, 0.4, 0], "hold": 1}]})";
   const Outcome outcome = Choreo("dance -k " + At("keys.json") + Server() + "-o " + At("d.npz"));
   ASSERT_EQ(outcome.code, 0) << outcome.said;
-  const size_t first = outcome.said.find("under the floor");
+  const size_t first = outcome.said.find("cm under the floor");
   EXPECT_NE(first, std::string::npos) << outcome.said;
-  EXPECT_EQ(outcome.said.find("under the floor", first + 1), std::string::npos) << outcome.said;
+  EXPECT_EQ(outcome.said.find("cm under the floor", first + 1), std::string::npos) << outcome.said;
 }
 
 TEST_F(CommandTest, RefusesKneesThatBendBackwardsUnlessToldOtherwise) {
