@@ -51,11 +51,13 @@ export class Dancer {
           },
         },
       );
-      signal.addEventListener('abort', () => {
+      const cancel = () => {
         this.wire.send(call, { case: 'cancel', value: {} });
         this.wire.end(call);
         resolve(motion);
-      });
+      };
+      if (signal.aborted) cancel();
+      else signal.addEventListener('abort', cancel);
     });
   }
 
