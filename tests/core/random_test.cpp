@@ -97,8 +97,6 @@ TEST(FillNormalTest, DependsOnItsCoordinatesAlone) {
   }
 }
 
-// Bits must not change between runs; these also pin them between builds: the same seed must keep
-// giving the same dance.
 TEST(FillNormalTest, RepeatsCorrelateByTheirVariation) {
   const auto like = [](double variation) {
     std::vector<float> out(50'000);
@@ -123,6 +121,8 @@ TEST(FillNormalTest, RepeatsCorrelateByTheirVariation) {
   EXPECT_EQ(itself, first);
 }
 
+// Bits must not change between runs; these also pin them between builds: the same seed must keep
+// giving the same dance.
 TEST(FillNormalTest, KeepsItsBits) {
   EXPECT_THAT(Noise(42, 3, 1000, 6), ElementsAre(-0x1.52d69ap-2F, -0x1.b90c62p-1F, 0x1.d54a2cp-2F,
                                                  0x1.77fa92p-1F, 0x1.ea526ap-6F, 0x1.5636b4p-4F));

@@ -176,5 +176,4 @@ TEST(DanceStream, MovingAndTurningTheSceneMovesTheDance) {
   }
 }
 
-// A refused message changes nothing.
 }  // namespace choreo::dance_determinism_test
