@@ -1,10 +1,9 @@
 #include <Eigen/Core>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <vector>
 
-#include "model/motion/kinematics/limb.h"
+#include "model/motion/kinematics/trunk_line.h"
 #include "model/motion/rotation.h"
 #include "model/plan/plan_stages.h"
 
@@ -73,7 +72,7 @@ void Turn(const PlanContext& context, const Wrist& wrist, size_t first_normal,
   Vector3d rate = Vector3d::Zero();
   if (context.history.size() > 1) {
     const Pose& earlier = context.history[context.history.size() - 2];
-    // Little way tells nothing of the rate.
+    // An arm slower than 1 rad/s tells nothing of the rate.
     const double way = std::max(Way(wrist, earlier, *before), 1 / context.fps);
     const Vector3d step =
         wrist.axes.transpose() *
@@ -109,19 +108,17 @@ void Turn(const PlanContext& context, const Wrist& wrist, size_t first_normal,
 
 void TurnWrists(const PlanContext& context, std::vector<Pose>* plan) {
   const Skeleton& skeleton = context.skeleton;
-  const std::array shoulders = {skeleton.left_shoulder, skeleton.right_shoulder};
-  const std::array elbows = {skeleton.left_elbow, skeleton.right_elbow};
-  for (size_t side = 0; side < 2; ++side) {
-    const int wrist = elbows[side] < 0 ? -1 : FirstChild(skeleton, elbows[side]);
-    const Vector3d along =
-        wrist < 0 ? Vector3d::Zero() : Vector3d(skeleton.offsets.col(wrist).normalized());
-    if (shoulders[side] < 0 || along.isZero()) continue;
+  const std::vector<Arm> arms = ArmsOf(skeleton);
+  for (size_t side = 0; side < arms.size(); ++side) {
+    const Arm& arm = arms[side];
+    const Vector3d along = skeleton.offsets.col(arm.wrist).normalized();
+    if (along.isZero()) continue;
     const Vector3d above = std::abs(along.y()) < 0.9 ? Vector3d::UnitY() : Vector3d::UnitX();
     const Vector3d up = (above - above.dot(along) * along).normalized();
     const double mirrored = side == 0 ? 1 : -1;
     Matrix3d axes;
     axes << mirrored * along, mirrored * up, along.cross(up);
-    Turn(context, {shoulders[side], elbows[side], wrist, axes}, side * kNormals, plan);
+    Turn(context, {arm.shoulder, arm.elbow, arm.wrist, axes}, side * kNormals, plan);
   }
 }
 
